@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "adit/geometry/angle.hpp"
+
+namespace adit {
+
+using Eigen::Matrix2d;
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// z component of the cross product: positive when b lies counter-clockwise of a.
+inline double cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// The vector turned by +90 degrees.
+inline Vector2d perpendicular(const Vector2d& v) { return {-v.y(), v.x()}; }
+
+/// Unit vector at an angle (rad).
+inline Vector2d unit_vector(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+/// A rigid motion of the plane: `map_from_vehicle * point_in_vehicle` is the point in the map.
+///
+/// Metres and radians, theta counter-clockwise in (-pi, pi]. Poses form a group under `*` with
+/// `inverse` and the identity `Pose2{}`; inner frames cancel: a_from_b * b_from_c is a_from_c.
+struct Pose2 {
+  double x = 0.0;
+  double y = 0.0;
+  double theta = 0.0;
+
+  Vector2d translation() const { return {x, y}; }
+  Vector3d vector() const { return {x, y, theta}; }
+  static Pose2 from_vector(const Vector3d& v) { return {v.x(), v.y(), wrap_angle(v.z())}; }
+  bool is_finite() const {
+    return std::isfinite(x) && std::isfinite(y) && std::isfinite(theta);
+  }
+};
+
+/// A point carried by a pose. For many points use `RigidTransform`, which keeps sine and cosine.
+inline Vector2d operator*(const Pose2& a_from_b, const Vector2d& point_in_b) {
+  const double c = std::cos(a_from_b.theta);
+  const double s = std::sin(a_from_b.theta);
+  return {a_from_b.x + c * point_in_b.x() - s * point_in_b.y(),
+          a_from_b.y + s * point_in_b.x() + c * point_in_b.y()};
+}
+
+/// Composition; theta is wrapped.
+inline Pose2 operator*(const Pose2& a_from_b, const Pose2& b_from_c) {
+  const Vector2d t = a_from_b * b_from_c.translation();
+  return {t.x(), t.y(), wrap_angle(a_from_b.theta + b_from_c.theta)};
+}
+
+/// b_from_a of a_from_b.
+inline Pose2 inverse(const Pose2& a_from_b) {
+  const double c = std::cos(a_from_b.theta);
+  const double s = std::sin(a_from_b.theta);
+  return {-c * a_from_b.x - s * a_from_b.y, s * a_from_b.x - c * a_from_b.y,
+          wrap_angle(-a_from_b.theta)};
+}
+
+/// The pose with its sine and cosine, for carrying many points and directions.
+struct RigidTransform {
+  explicit RigidTransform(const Pose2& pose)
+      : origin(pose.translation()), axis_x(unit_vector(pose.theta)) {}
+  Vector2d direction(const Vector2d& v) const {
+    return {axis_x.x() * v.x() - axis_x.y() * v.y(), axis_x.y() * v.x() + axis_x.x() * v.y()};
+  }
+  Vector2d point(const Vector2d& p) const { return origin + direction(p); }
+
+  Vector2d origin;
+  Vector2d axis_x;
+};
+
+/// A pose in the map and its covariance over (x, y, theta) in the map frame (m, m, rad).
+struct PoseWithCovariance {
+  Pose2 pose;
+  Matrix3d covariance = Matrix3d::Zero();
+};
+
+}  // namespace adit

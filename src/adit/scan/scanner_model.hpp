@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cmath>
+
+namespace adit {
+
+/// How a scanner measures; one sigma, SI units.
+struct ScannerModel {
+  double range_sigma_m = 0.02;
+  double quantisation_m = 0.01;
+  double bearing_sigma_rad = 0.0;
+  double max_range_m = 80.0;
+  double min_range_m = 0.05;
+
+  /// Standard deviation of one range along the beam: noise and rounding together (m).
+  double beam_sigma_m() const {
+    return std::sqrt(range_sigma_m * range_sigma_m + quantisation_m * quantisation_m / 12.0);
+  }
+
+  template <class Self, class Field>
+  static void visit(Self& self, Field&& field) {
+    field("range_sigma_m", self.range_sigma_m, "noise of a range, one sigma (m)");
+    field("quantisation_m", self.quantisation_m, "step in which ranges are reported (m)");
+    field("bearing_sigma_rad", self.bearing_sigma_rad, "noise of a beam's bearing (rad)");
+    field("max_range_m", self.max_range_m, "a range at or over this is no return (m)");
+    field("min_range_m", self.min_range_m, "a range below this is no return (m)");
+  }
+};
+
+}  // namespace adit
