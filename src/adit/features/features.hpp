@@ -11,9 +11,10 @@ namespace adit {
 /// A straight piece of wall as the scanner meets it, counter-clockwise from `begin` to `end`.
 ///
 /// In the frame of the observer, who stands to the left of begin -> end. `orientation` is the angle
-/// of the normal that points away from the observer; `distance` is the perpendicular distance of the
-/// wall along that normal, so every point p of it has p . (cos, sin)(orientation) = distance. It is
-/// never negative by more than noise. (The paper's length, perpendicular distance, orientation.)
+/// of the normal that points away from the observer; `distance` is the perpendicular distance of
+/// the wall along that normal, so every point p of it has p . (cos, sin)(orientation) = distance.
+/// It is never negative by more than noise. (The paper's length, perpendicular distance,
+/// orientation.)
 struct Line {
   Vector2d begin = Vector2d::Zero();
   Vector2d end = Vector2d::Zero();
@@ -26,13 +27,14 @@ struct Line {
   double length() const { return (end - begin).norm(); }
 };
 
-/// Where a visible wall ends: at another visible wall, or before a gap behind which the view goes on.
+/// Where a visible wall ends: at another visible wall, or before a gap behind which the view goes
+/// on.
 ///
 /// `arms` are indices into the list's lines: [0] the line met before the vertex, [1] the one met
 /// after it, counter-clockwise; -1 where that arm is not visible. A corner with both arms has the
-/// paper's concave angle (the smaller angle between the arms, in (0, pi]) and the orientation of its
-/// bisector (pointing from the vertex into that angle). With one arm, both are absent from a sensed
-/// corner; a model corner has them where the map knows the other wall.
+/// paper's concave angle (the smaller angle between the arms, in (0, pi]) and the orientation of
+/// its bisector (pointing from the vertex into that angle). With one arm, both are absent from a
+/// sensed corner; a model corner has them where the map knows the other wall.
 struct Corner {
   Vector2d position = Vector2d::Zero();
   Matrix2d covariance = Matrix2d::Zero();  ///< of the position (m²); zero for model corners

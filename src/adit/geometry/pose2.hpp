@@ -32,9 +32,7 @@ struct Pose2 {
   Vector2d translation() const { return {x, y}; }
   Vector3d vector() const { return {x, y, theta}; }
   static Pose2 from_vector(const Vector3d& v) { return {v.x(), v.y(), wrap_angle(v.z())}; }
-  bool is_finite() const {
-    return std::isfinite(x) && std::isfinite(y) && std::isfinite(theta);
-  }
+  bool is_finite() const { return std::isfinite(x) && std::isfinite(y) && std::isfinite(theta); }
 };
 
 /// A point carried by a pose. For many points use `RigidTransform`, which keeps sine and cosine.
@@ -77,5 +75,15 @@ struct PoseWithCovariance {
   Pose2 pose;
   Matrix3d covariance = Matrix3d::Zero();
 };
+
+/// The pose of a rigidly mounted frame and its covariance, with the lever arm's part of it:
+/// map_from_b of map_from_a and the fixed a_from_b.
+inline PoseWithCovariance carry(const PoseWithCovariance& map_from_a, const Pose2& a_from_b) {
+  const Vector2d lever = RigidTransform(map_from_a.pose).direction(a_from_b.translation());
+  Matrix3d jacobian = Matrix3d::Identity();
+  jacobian(0, 2) = -lever.y();
+  jacobian(1, 2) = lever.x();
+  return {map_from_a.pose * a_from_b, jacobian * map_from_a.covariance * jacobian.transpose()};
+}
 
 }  // namespace adit

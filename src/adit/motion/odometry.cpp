@@ -26,9 +26,8 @@ PoseWithCovariance dead_reckon(const PoseWithCovariance& start, const Pose2& mov
   Matrix3d rotation = Matrix3d::Identity();
   const Vector2d axis = unit_vector(start.pose.theta);
   rotation.topLeftCorner<2, 2>() << axis.x(), -axis.y(), axis.y(), axis.x();
-  return {start.pose * move,
-          from_start * start.covariance * from_start.transpose() +
-              rotation * move_covariance(move, noise) * rotation.transpose()};
+  return {start.pose * move, from_start * start.covariance * from_start.transpose() +
+                                 rotation * move_covariance(move, noise) * rotation.transpose()};
 }
 
 }  // namespace adit

@@ -10,13 +10,13 @@ namespace adit {
 /// One sweep of a planar laser scanner.
 ///
 /// Beam i points at `first_bearing + i * bearing_step` (rad, laser frame, counter-clockwise; a
-/// negative step is a scanner that turns clockwise) and measured `ranges[i]` metres. A range that is
-/// not finite, not above zero, or at or over `max_range` is "no return".
+/// negative step is a scanner that turns clockwise) and measured `ranges[i]` metres. A range that
+/// is not finite, not above zero, or at or over `max_range` is "no return".
 struct LaserScan {
   double stamp = 0.0;  ///< s
   double first_bearing = 0.0;
   double bearing_step = 0.0;
-  double max_range = 0.0;  ///< m
+  double max_range = 0.0;    ///< m
   Pose2 vehicle_from_laser;  ///< where the scanner is mounted
   std::vector<double> ranges;
 

@@ -22,14 +22,14 @@ const char* to_string(Status status);
 /// Where the vehicle is at the stamp of a scan, how sure that is, and whether to trust it.
 struct Estimate {
   double stamp = 0.0;
-  Pose2 pose;                                   ///< map_from_vehicle
-  Matrix3d covariance = Matrix3d::Zero();       ///< over (x, y, theta) in the map frame
+  Pose2 pose;                              ///< map_from_vehicle
+  Matrix3d covariance = Matrix3d::Zero();  ///< over (x, y, theta) in the map frame
   Status status = Status::lost;
-  bool dead_reckoned = true;                    ///< the scan did not contribute
+  bool dead_reckoned = true;  ///< the scan did not contribute
   double protection_m = std::numeric_limits<double>::infinity();
-  double chi_square = 0.0;                      ///< of the fit, with `degrees_of_freedom`
+  double chi_square = 0.0;  ///< of the fit, with `degrees_of_freedom`
   int degrees_of_freedom = 0;
-  std::span<const FeaturePair> pairs;           ///< matched features; views the localizer's buffers
+  std::span<const FeaturePair> pairs;  ///< matched features; views the localizer's buffers
 };
 
 }  // namespace adit

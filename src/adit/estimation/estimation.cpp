@@ -1,0 +1,238 @@
+#include "adit/estimation/estimation.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace adit {
+namespace {
+
+struct Linearised {
+  Vector2d error;
+  Eigen::Matrix<double, 2, 3> jacobian;
+};
+
+/// The paper's two error measures of a line: orientation and perpendicular distance.
+Linearised line_error(const Vector2d& sensed, const Vector2d& model, const Pose2& pose) {
+  const double orientation = sensed.x() + pose.theta;
+  const Vector2d normal = unit_vector(orientation);
+  Linearised l;
+  l.error = {wrap_angle(model.x() - orientation),
+             model.y() - sensed.y() - normal.dot(pose.translation())};
+  l.jacobian << 0.0, 0.0, -1.0,  //
+      -normal.x(), -normal.y(), -perpendicular(normal).dot(pose.translation());
+  return l;
+}
+
+/// The paper's two error measures of a corner: x and y, in the model's axes.
+Linearised corner_error(const Vector2d& sensed, const Vector2d& model, const Pose2& pose) {
+  const Vector2d turned = RigidTransform(pose).direction(sensed);
+  Linearised l;
+  l.error = model - turned - pose.translation();
+  l.jacobian << -1.0, 0.0, turned.y(),  //
+      0.0, -1.0, -turned.x();
+  return l;
+}
+
+Vector3d difference(const Pose2& a, const Pose2& b) {
+  return {a.x - b.x, a.y - b.y, wrap_angle(a.theta - b.theta)};
+}
+
+Matrix2d rotation(double angle) {
+  const Vector2d axis = unit_vector(angle);
+  Matrix2d r;
+  r << axis.x(), -axis.y(), axis.y(), axis.x();
+  return r;
+}
+
+bool well_conditioned(const Matrix3d& information) {
+  const Eigen::LDLT<Matrix3d> factor(information);
+  const Vector3d d = factor.vectorD();
+  return factor.info() == Eigen::Success && d.minCoeff() > 1e-9 * std::max(1e-9, d.maxCoeff());
+}
+
+}  // namespace
+
+Matrix2d FeatureEstimator::line_information(const Line& sensed, const Line& model, int shared,
+                                            const EstimationOptions& options) const {
+  if (options.weighting == Weighting::points) return Matrix2d::Identity() * sensed.points;
+  Matrix2d covariance = sensed.covariance;
+  if (options.map_sigma_m > 0.0) {
+    // The map's line may be off and turned: independent errors of its two ends, seen by this piece.
+    const double variance = options.map_sigma_m * options.map_sigma_m;
+    const double length = std::max(sensed.length(), 0.5 * model.length());
+    const double middle =
+        perpendicular(unit_vector(sensed.orientation)).dot(0.5 * (sensed.begin + sensed.end));
+    const double turn = 4.0 * variance / (length * length);
+    covariance(0, 0) += turn;
+    covariance(0, 1) += turn * middle;
+    covariance(1, 0) += turn * middle;
+    covariance(1, 1) += variance + turn * middle * middle;
+  }
+  return covariance.inverse() / shared;
+}
+
+/// What the corner tells beyond the matched lines through it.
+Matrix2d FeatureEstimator::corner_information(const Corner& sensed, const FeatureList& list,
+                                              const EstimationOptions& options) const {
+  if (options.weighting == Weighting::points) return Matrix2d::Identity() * sensed.points;
+  const auto is_matched = [&](int arm) {
+    return arm >= 0 && matches_of_line_[static_cast<std::size_t>(arm)] > 0;
+  };
+  const bool first = is_matched(sensed.arms[0]);
+  const bool second = is_matched(sensed.arms[1]);
+  if (first && second) return Matrix2d::Zero();
+  const Matrix2d covariance =
+      sensed.covariance + Matrix2d::Identity() * (options.map_sigma_m * options.map_sigma_m);
+  if (!first && !second) return covariance.inverse();
+  const int arm = sensed.arms[first ? 0 : 1];
+  const Line& line = list.lines[static_cast<std::size_t>(arm)];
+  const Vector2d along = perpendicular(unit_vector(line.orientation));
+  return along * along.transpose() / along.dot(covariance * along);
+}
+
+void FeatureEstimator::build_terms(const FeatureList& sensed, const FeatureList& model,
+                                   std::span<const FeaturePair> pairs,
+                                   const EstimationOptions& options) {
+  matches_of_line_.assign(sensed.lines.size(), 0);
+  for (const FeaturePair& pair : pairs) {
+    if (pair.kind == FeatureKind::line) ++matches_of_line_[static_cast<std::size_t>(pair.sensed)];
+  }
+  terms_.clear();
+  for (const FeaturePair& pair : pairs) {
+    const auto i = static_cast<std::size_t>(pair.sensed);
+    const auto j = static_cast<std::size_t>(pair.model);
+    if (pair.kind == FeatureKind::line) {
+      const Line& s = sensed.lines[i];
+      const Line& m = model.lines[j];
+      terms_.push_back({pair,
+                        {s.orientation, s.distance},
+                        {m.orientation, m.distance},
+                        line_information(s, m, matches_of_line_[i], options)});
+    } else {
+      const Corner& s = sensed.corners[i];
+      terms_.push_back(
+          {pair, s.position, model.corners[j].position, corner_information(s, sensed, options)});
+    }
+  }
+}
+
+FeatureEstimator::System FeatureEstimator::linearise(
+    const Pose2& pose, const std::optional<PoseWithCovariance>& prior) const {
+  System system;
+  for (const Term& term : terms_) {
+    if (term.dropped) continue;
+    Linearised l;
+    Matrix2d information = term.information;
+    if (term.pair.kind == FeatureKind::line) {
+      l = line_error(term.sensed, term.model, pose);
+    } else {
+      l = corner_error(term.sensed, term.model, pose);
+      const Matrix2d r = rotation(pose.theta);
+      information = r * information * r.transpose();
+    }
+    const Eigen::Matrix<double, 3, 2> weighted = l.jacobian.transpose() * information;
+    system.information.noalias() += weighted * l.jacobian;
+    system.gradient.noalias() += weighted * l.error;
+    system.cost += l.error.dot(information * l.error);
+  }
+  if (prior) {
+    const Matrix3d information = prior->covariance.inverse();
+    const Vector3d error = difference(prior->pose, pose);
+    system.information += information;
+    system.gradient -= information * error;
+    system.cost += error.dot(information * error);
+  }
+  return system;
+}
+
+/// Gauss-Newton: F + J D is least at D = -(J' W J)^-1 J' W F; steps that make it worse are halved.
+bool FeatureEstimator::solve(const EstimationOptions& options,
+                             const std::optional<PoseWithCovariance>& prior,
+                             FeatureFit& fit) const {
+  System system = linearise(fit.pose, prior);
+  for (int i = 0; i < options.max_iterations; ++i) {
+    if (!well_conditioned(system.information)) return false;
+    Vector3d step = -system.information.ldlt().solve(system.gradient);
+    ++fit.iterations;
+    const bool small =
+        step.head<2>().norm() < options.step_m && std::abs(step.z()) < options.step_rad;
+    if (small) return true;
+    Pose2 next = Pose2::from_vector(fit.pose.vector() + step);
+    System after = linearise(next, prior);
+    for (int halving = 0; after.cost > system.cost && halving < 8; ++halving) {
+      step *= 0.5;
+      next = Pose2::from_vector(fit.pose.vector() + step);
+      after = linearise(next, prior);
+    }
+    if (!(after.cost <= system.cost * (1.0 + 1e-9) + 1e-12)) return false;
+    fit.pose = next;
+    system = after;
+  }
+  return false;
+}
+
+bool FeatureEstimator::drop_worst(const Pose2& pose, double gate) {
+  Term* worst = nullptr;
+  double largest = gate;
+  for (Term& term : terms_) {
+    if (term.dropped) continue;
+    Vector2d error;
+    if (term.pair.kind == FeatureKind::line) {
+      error = line_error(term.sensed, term.model, pose).error;
+    } else {
+      error = rotation(pose.theta).transpose() * corner_error(term.sensed, term.model, pose).error;
+    }
+    const double chi_square = error.dot(term.information * error);
+    if (chi_square > largest) {
+      largest = chi_square;
+      worst = &term;
+    }
+  }
+  if (worst != nullptr) worst->dropped = true;
+  return worst != nullptr;
+}
+
+FeatureFit FeatureEstimator::fit(const FeatureList& sensed, const FeatureList& model,
+                                 std::span<const FeaturePair> pairs, const Pose2& start,
+                                 const EstimationOptions& options,
+                                 const std::optional<PoseWithCovariance>& prior) {
+  FeatureFit fit;
+  fit.pose = start;
+  build_terms(sensed, model, pairs, options);
+  fit.converged = solve(options, prior, fit);
+  if (options.weighting == Weighting::covariance) {
+    while (fit.converged && drop_worst(fit.pose, options.gate_chi_square)) {
+      ++fit.dropped;
+      fit.converged = solve(options, prior, fit);
+    }
+  }
+  summarise(prior, options, fit);
+  return fit;
+}
+
+void FeatureEstimator::summarise(const std::optional<PoseWithCovariance>& prior,
+                                 const EstimationOptions& options, FeatureFit& fit) {
+  used_.clear();
+  int errors = 0;
+  for (const Term& term : terms_) {
+    if (term.dropped) continue;
+    used_.push_back(term.pair);
+    const double trace = term.information.trace();
+    if (trace > 0.0) errors += term.information.determinant() > 1e-12 * trace * trace ? 2 : 1;
+  }
+  const System features = linearise(fit.pose, std::nullopt);
+  fit.used = static_cast<int>(used_.size());
+  fit.information = features.information;
+  fit.chi_square = features.cost;
+  fit.degrees_of_freedom = errors - 3;
+  if (!fit.converged) return;
+  fit.covariance = linearise(fit.pose, prior).information.inverse();
+  if (options.weighting == Weighting::points && fit.degrees_of_freedom > 0) {
+    // Weights by point count have no scale of their own: the scatter of the fit gives it.
+    fit.covariance *= fit.chi_square / fit.degrees_of_freedom;
+  }
+}
+
+}  // namespace adit

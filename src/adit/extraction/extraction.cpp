@@ -1,0 +1,143 @@
+#include "adit/extraction/extraction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adit/extraction/join.hpp"
+#include "adit/extraction/segmentation.hpp"
+#include "adit/extraction/wall_line.hpp"
+
+namespace adit {
+
+const FeatureList& Extractor::extract(const LaserScan& scan, const ScannerModel& scanner,
+                                      const ExtractionOptions& options) {
+  features_.clear();
+  points_.build(scan, scanner, options.roughness_m, options.grazing_rad);
+  set_operator_sizes(options);
+  cut_into_stretches(options);
+  if (points_.closed() && stretches_.size() > 1) {
+    // The seam of a closed contour moves to a corner that was found with both its arms.
+    points_.restart_at(stretches_[1].begin);
+    cut_into_stretches(options);
+  }
+  fit_lines(options);
+  join_lines(options);
+  sort_counter_clockwise(features_);
+  return features_;
+}
+
+void Extractor::set_operator_sizes(const ExtractionOptions& options) {
+  sizes_.clear();
+  for (double size = options.max_operator_m; size > options.min_operator_m; size *= 0.5) {
+    sizes_.push_back(size);
+  }
+  sizes_.push_back(options.min_operator_m);
+}
+
+void Extractor::cut_into_stretches(const ExtractionOptions& options) {
+  const CornerDecision decision{options.corner_chi_square, options.straight_sigmas,
+                                static_cast<std::size_t>(options.min_line_points)};
+  stretches_.clear();
+  piece_.clear();
+  const std::vector<ScanPoints::Piece>& pieces = points_.pieces();
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const Stretch whole{pieces[p].begin, pieces[p].end};
+    if (static_cast<int>(whole.size()) < options.min_line_points) continue;
+    cuts_.clear();
+    if (!is_straight(points_, whole, options.straight_sigmas)) {
+      operator_.find(points_, whole, sizes_, decision, cuts_);
+    }
+    segment_piece(points_, whole, cuts_, decision, stretches_);
+    piece_.resize(stretches_.size(), p);
+  }
+}
+
+void Extractor::fit_lines(const ExtractionOptions& options) {
+  line_.clear();
+  for (const Stretch& stretch : stretches_) {
+    const auto line = fit_wall_line(points_, stretch, options.min_line_points);
+    const bool usable = line && line->length() >= options.min_line_m && line->distance > 0.0;
+    line_.push_back(usable ? static_cast<int>(features_.lines.size()) : -1);
+    if (usable) features_.lines.push_back(*line);
+  }
+}
+
+void Extractor::join_lines(const ExtractionOptions& options) {
+  begins_joined_.assign(stretches_.size(), 0);
+  for (std::size_t s = 0; s < stretches_.size(); ++s) {
+    if (line_[s] < 0) continue;
+    const std::size_t next = next_line(s);
+    if (next != s && add_corner(s, next, options)) {
+      begins_joined_[next] = 1;
+    } else {
+      add_edge(s, 0);
+    }
+  }
+  for (std::size_t s = 0; s < stretches_.size(); ++s) {
+    if (line_[s] >= 0 && begins_joined_[s] == 0) add_edge(s, 1);
+  }
+}
+
+/// The next stretch of the same piece that has a line, at most a few stray points away; the stretch
+/// itself where there is none. In a closed contour the first follows the last.
+std::size_t Extractor::next_line(std::size_t s) const {
+  constexpr std::size_t kStrayPoints = 3;
+  std::size_t stray = 0;
+  for (std::size_t k = 1; k < stretches_.size(); ++k) {
+    const std::size_t next = (s + k) % stretches_.size();
+    if (next < s && !points_.closed()) return s;
+    if (piece_[next] != piece_[s]) return s;
+    if (line_[next] >= 0) return next;
+    stray += stretches_[next].size();
+    if (stray > kStrayPoints) return s;
+  }
+  return s;
+}
+
+bool Extractor::add_corner(std::size_t s, std::size_t next, const ExtractionOptions& options) {
+  Line& before = features_.lines[static_cast<std::size_t>(line_[s])];
+  Line& after = features_.lines[static_cast<std::size_t>(line_[next])];
+  std::optional<Corner> corner = intersect(before, after, options.min_corner_turn_rad);
+  if (!corner) return false;
+  // The lines must really reach the vertex: a step in the wall is no corner of both.
+  const double spacing = std::abs(points_.beam_step()) * corner->position.norm();
+  const double reach = 3.0 * std::sqrt(corner->covariance.trace()) + 3.0 * spacing +
+                       2.0 * std::sqrt(points_.noise().beam_variance);
+  if ((corner->position - before.end).norm() > reach) return false;
+  if ((corner->position - after.begin).norm() > reach) return false;
+  corner->arms = {line_[s], line_[next]};
+  before.end = corner->position;
+  after.begin = corner->position;
+  features_.corners.push_back(*corner);
+  return true;
+}
+
+/// Adds the occluding corner at one end of a stretch's line, if the view goes on behind it there.
+void Extractor::add_edge(std::size_t s, int arm) {
+  const bool at_end = arm == 0;
+  const Stretch& stretch = stretches_[s];
+  const std::size_t n = points_.size();
+  const std::size_t last = at_end ? stretch.end - 1 : stretch.begin;
+  const int step = at_end ? 1 : -1;
+  const int beam = points_.beam_index(last);
+  const int beyond = beam + step;
+  if (!points_.full_circle() && (beyond < 0 || beyond >= points_.beam_count())) return;
+
+  const Line& line = features_.lines[static_cast<std::size_t>(line_[s])];
+  const std::size_t neighbour = at_end ? (last + 1) % n : (last + n - 1) % n;
+  const int wrapped = (beyond + points_.beam_count()) % points_.beam_count();
+  if (points_.beam_index(neighbour) == wrapped) {
+    const Vector2d expected = meet(line, points_.beam(neighbour), points_.point(last));
+    const double margin =
+        0.1 + 4.0 * std::sqrt(points_.noise().beam_variance + points_.noise().roughness_variance);
+    if (points_.range(neighbour) < expected.norm() + margin) return;
+  }
+  const double half_step = 0.5 * std::abs(points_.beam_step());
+  const Vector2d at = points_.beam(last);
+  const Vector2d edge = at * std::cos(half_step) + step * std::sin(half_step) * perpendicular(at);
+  Corner corner = occluding_corner(line, arm, edge, half_step / std::sqrt(3.0));
+  corner.arms[static_cast<std::size_t>(arm)] = line_[s];
+  features_.corners.push_back(corner);
+}
+
+}  // namespace adit

@@ -1,0 +1,131 @@
+#include "adit/extraction/scan_points.hpp"
+
+#include <algorithm>
+
+namespace adit {
+
+double ScanPoints::chi_square(std::size_t begin, std::size_t end) const {
+  const Moments m = moments(begin, end);
+  if (m.n < 3.0) return 0.0;
+  const double inverse_n = 1.0 / m.n;
+  const double mx = m.x * inverse_n;
+  const double my = m.y * inverse_n;
+  const double a = m.xx - m.x * mx;
+  const double b = m.xy - m.x * my;
+  const double c = m.yy - m.y * my;
+  const double spread = std::sqrt((a - c) * (a - c) + 4.0 * b * b);
+  const double squared_error = std::max(0.0, 0.5 * (a + c - spread));
+  const double range2 = mx * mx + my * my;
+  // cos² of the incidence by the double angle: no trigonometry and no second square root.
+  const double aligned = (a - c) * (mx * mx - my * my) + 4.0 * b * mx * my;
+  const double scale = spread * range2;
+  const double cos2 = scale > 0.0 ? std::clamp(0.5 * (1.0 - aligned / scale), 0.02, 1.0) : 1.0;
+  return squared_error / noise_.across(cos2, range2);
+}
+
+void ScanPoints::build(const LaserScan& scan, const ScannerModel& scanner, double roughness,
+                       double grazing) {
+  const double sigma = scanner.beam_sigma_m();
+  noise_.beam_variance = std::max(sigma * sigma, 1e-8);
+  noise_.roughness_variance = roughness * roughness;
+  noise_.bearing_variance = scanner.bearing_sigma_rad * scanner.bearing_sigma_rad;
+  inverse_sin_grazing_ = 1.0 / std::sin(grazing);
+  prepare_beams(scan);
+  collect(scan, scanner);
+  closed_ = false;
+  if (full_circle_ && size() > 2) {
+    std::size_t start = 0;
+    while (start < size() && joined(start == 0 ? size() - 1 : start - 1, start)) ++start;
+    closed_ = start == size();
+    if (closed_) {
+      start =
+          static_cast<std::size_t>(std::max_element(range_.begin(), range_.end()) - range_.begin());
+    }
+    rotate(start);
+  }
+  cut_pieces();
+  accumulate();
+}
+
+void ScanPoints::restart_at(std::size_t point) {
+  rotate(point);
+  accumulate();
+}
+
+void ScanPoints::prepare_beams(const LaserScan& scan) {
+  const std::size_t n = scan.ranges.size();
+  full_circle_ = scan.is_full_circle();
+  if (cos_.size() == n && first_bearing_ == scan.first_bearing && step_ == scan.bearing_step)
+    return;
+  first_bearing_ = scan.first_bearing;
+  step_ = scan.bearing_step;
+  cos_.resize(n);
+  sin_.resize(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double bearing = scan.bearing(step_ < 0.0 ? n - 1 - k : k);
+    cos_[k] = std::cos(bearing);
+    sin_[k] = std::sin(bearing);
+  }
+}
+
+void ScanPoints::collect(const LaserScan& scan, const ScannerModel& scanner) {
+  const std::size_t n = scan.ranges.size();
+  x_.clear();
+  y_.clear();
+  range_.clear();
+  beam_.clear();
+  const double longest =
+      std::min(scan.max_range > 0.0 ? scan.max_range : scanner.max_range_m, scanner.max_range_m);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double r = scan.ranges[step_ < 0.0 ? n - 1 - k : k];
+    if (!(r > scanner.min_range_m && r < longest)) continue;
+    x_.push_back(r * cos_[k]);
+    y_.push_back(r * sin_[k]);
+    range_.push_back(r);
+    beam_.push_back(static_cast<int>(k));
+  }
+}
+
+bool ScanPoints::joined(std::size_t i, std::size_t j) const {
+  int beams = beam_[j] - beam_[i];
+  if (beams <= 0) beams += beam_count();
+  const double nearer = std::min(range_[i], range_[j]);
+  const double spacing = nearer * std::abs(step_) * beams * inverse_sin_grazing_;
+  const double noise = 4.0 * std::sqrt(2.0 * (noise_.beam_variance + noise_.roughness_variance));
+  const double limit = spacing + noise;
+  const double dx = x_[j] - x_[i];
+  const double dy = y_[j] - y_[i];
+  return dx * dx + dy * dy <= limit * limit;
+}
+
+void ScanPoints::rotate(std::size_t first) {
+  const auto by = [first](auto& v) {
+    std::rotate(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(first), v.end());
+  };
+  if (first == 0 || first >= size()) return;
+  by(x_);
+  by(y_);
+  by(range_);
+  by(beam_);
+}
+
+void ScanPoints::cut_pieces() {
+  pieces_.clear();
+  std::size_t begin = 0;
+  for (std::size_t i = 1; i <= size(); ++i) {
+    if (i < size() && joined(i - 1, i)) continue;
+    if (i > begin) pieces_.push_back({begin, i});
+    begin = i;
+  }
+}
+
+void ScanPoints::accumulate() {
+  sums_.resize(size() + 1);
+  sums_[0] = Moments{};
+  for (std::size_t i = 0; i < size(); ++i) {
+    sums_[i + 1] = sums_[i];
+    sums_[i + 1].add(x_[i], y_[i]);
+  }
+}
+
+}  // namespace adit

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "adit/geometry/moments.hpp"
+#include "adit/scan/laser_scan.hpp"
+#include "adit/scan/scanner_model.hpp"
+
+namespace adit {
+
+/// Noise of the points perpendicular to the wall that they lie on.
+struct PointNoise {
+  double beam_variance = 0.0;       ///< along the beam (m²)
+  double roughness_variance = 0.0;  ///< of the wall itself (m²)
+  double bearing_variance = 0.0;    ///< of the beam's bearing (rad²)
+
+  /// Variance across a wall at squared range `range2`, met at incidence with squared cosine `cos2`.
+  double across(double cos2, double range2) const {
+    return beam_variance * cos2 + roughness_variance + bearing_variance * range2 * (1.0 - cos2);
+  }
+};
+
+/// The returns of one scan as points of the laser's frame, counter-clockwise, cut into pieces at
+/// occlusions, with prefix sums so that any stretch is fitted in O(1).
+///
+/// A full circle starts at a breakpoint, not at the first beam; where it has none it is `closed`
+/// and starts at the farthest point, which lies in a corner.
+class ScanPoints {
+ public:
+  struct Piece {
+    std::size_t begin = 0;  ///< first point
+    std::size_t end = 0;    ///< one past the last
+  };
+
+  /// `grazing` is the smallest angle (rad) between beam and wall at which neighbours still join.
+  void build(const LaserScan& scan, const ScannerModel& scanner, double roughness, double grazing);
+
+  /// Starts a closed scan at another of its points.
+  void restart_at(std::size_t point);
+
+  std::size_t size() const { return x_.size(); }
+  bool closed() const { return closed_; }
+  const std::vector<Piece>& pieces() const { return pieces_; }
+  const PointNoise& noise() const { return noise_; }
+  double x(std::size_t i) const { return x_[i]; }
+  double y(std::size_t i) const { return y_[i]; }
+  double range(std::size_t i) const { return range_[i]; }
+  Vector2d point(std::size_t i) const { return {x_[i], y_[i]}; }
+  /// Unit vector of the beam.
+  Vector2d beam(std::size_t i) const {
+    return {cos_[static_cast<std::size_t>(beam_[i])], sin_[static_cast<std::size_t>(beam_[i])]};
+  }
+  /// Position of the beam in the counter-clockwise order of all beams.
+  int beam_index(std::size_t i) const { return beam_[i]; }
+  double beam_step() const { return step_; }
+  int beam_count() const { return static_cast<int>(cos_.size()); }
+  bool full_circle() const { return full_circle_; }
+
+  /// Sums of the points [begin, end).
+  Moments moments(std::size_t begin, std::size_t end) const { return sums_[end] - sums_[begin]; }
+
+  /// Chi-square of the points [begin, end) about their own best line.
+  double chi_square(std::size_t begin, std::size_t end) const;
+
+ private:
+  void prepare_beams(const LaserScan& scan);
+  void collect(const LaserScan& scan, const ScannerModel& scanner);
+  bool joined(std::size_t i, std::size_t j) const;
+  void rotate(std::size_t first);
+  void cut_pieces();
+  void accumulate();
+
+  double first_bearing_ = 0.0;
+  double step_ = 0.0;
+  double inverse_sin_grazing_ = 1.0;
+  bool full_circle_ = false;
+  bool closed_ = false;
+  PointNoise noise_;
+  std::vector<double> cos_, sin_;
+  std::vector<double> x_, y_, range_;
+  std::vector<int> beam_;
+  std::vector<Moments> sums_;
+  std::vector<Piece> pieces_;
+};
+
+}  // namespace adit

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <chrono>
+
+namespace adit {
+
+/// How long the stages of one turn of the cycle took (s).
+struct Timings {
+  double prediction = 0.0;
+  double extraction = 0.0;
+  double matching = 0.0;
+  double estimation = 0.0;
+  double total() const { return prediction + extraction + matching + estimation; }
+};
+
+/// Writes the life time of the object to `seconds`.
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& seconds) : seconds_(seconds), start_(Clock::now()) {}
+  ~Stopwatch() { seconds_ = std::chrono::duration<double>(Clock::now() - start_).count(); }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& seconds_;
+  Clock::time_point start_;
+};
+
+}  // namespace adit

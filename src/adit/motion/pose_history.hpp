@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "adit/motion/odometry.hpp"
+
+namespace adit {
+
+/// The last stamped poses, in order of time, and the pose at any time between them.
+///
+/// Keeps a fixed number of poses. A pose that is not newer than the newest is sorted into its
+/// place; one with the stamp of another replaces it.
+class PoseHistory {
+ public:
+  explicit PoseHistory(std::size_t capacity = 1024);
+
+  void add(const StampedPose& pose);
+  void clear() { poses_.clear(); }
+  bool empty() const { return poses_.empty(); }
+  std::size_t size() const { return poses_.size(); }
+
+  /// The pose at a time: interpolated (translation linearly, heading along the smaller turn), or
+  /// the first or last pose where the time lies before or after all. Absent when nothing was added.
+  std::optional<Pose2> at(double stamp) const;
+
+ private:
+  std::size_t capacity_;
+  std::vector<StampedPose> poses_;
+};
+
+/// Linear between two poses: `from` at 0, `to` at 1; the heading takes the smaller turn.
+Pose2 interpolate(const Pose2& from, const Pose2& to, double fraction);
+
+}  // namespace adit
