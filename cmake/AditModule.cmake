@@ -21,6 +21,7 @@ function(adit_module name)
     set(scope INTERFACE)
   endif()
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  add_library(adit::${name} ALIAS ${target})
   target_compile_features(${target} ${scope} cxx_std_20)
   target_include_directories(${target} ${scope}
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
