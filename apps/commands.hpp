@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace adit {
+
+/// Exit statuses: done, the work failed (what and where on stderr), the call was wrong.
+inline constexpr int kDone = 0;
+inline constexpr int kFailed = 1;
+inline constexpr int kWrongCall = 2;
+
+struct DemoArguments {
+  std::string output = "adit-demo";
+  std::uint64_t seed = 1992;
+};
+
+struct SimulateArguments {
+  std::string world;
+  std::string output;
+  std::string config;
+  std::string path;
+  std::string scanner = "cyclone";
+  std::uint64_t seed = 1;
+  int clutter = 0;
+  std::optional<double> speed;
+  std::optional<double> sweep;
+  std::vector<double> odometry;  ///< ratio, degrees per metre, ratio of turns
+};
+
+struct LocalizeArguments {
+  std::string map;
+  std::string log;
+  std::string start;
+  std::string config;
+  std::string output = "adit-localize";
+  std::string estimator = "features";
+};
+
+struct EvaluateArguments {
+  std::string estimate;
+  std::string truth;
+  std::string relations;
+  bool json = false;
+};
+
+struct MapArguments {
+  std::string plan;
+  std::string output;
+};
+
+struct PlotArguments {
+  std::string map;
+  std::string scan;  ///< LOG:INDEX
+  std::string pose;  ///< x,y,heading in degrees
+  std::string trajectory;
+  std::string truth;
+  std::string config;
+  std::string output;
+};
+
+int run_demo(const DemoArguments& arguments);
+int run_simulate(const SimulateArguments& arguments);
+int run_localize(const LocalizeArguments& arguments);
+int run_evaluate(const EvaluateArguments& arguments);
+int run_map_info(const MapArguments& arguments);
+int run_map_check(const MapArguments& arguments);
+int run_map_convert(const MapArguments& arguments);
+int run_plot_map(const PlotArguments& arguments);
+int run_plot_scan(const PlotArguments& arguments);
+int run_plot_features(const PlotArguments& arguments);
+int run_plot_match(const PlotArguments& arguments);
+int run_plot_trajectory(const PlotArguments& arguments);
+/// Prints the reference of the configuration file (Markdown), or its defaults (TOML).
+int run_config(bool reference);
+
+}  // namespace adit

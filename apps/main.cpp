@@ -1,0 +1,176 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <functional>
+
+#include "commands.hpp"
+
+namespace {
+
+using adit::kWrongCall;
+
+/// What the chosen subcommand does; set by the parser's callbacks.
+using Action = std::function<int()>;
+
+void add_demo(CLI::App& app, adit::DemoArguments& args, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("demo", "The paper's experiment: simulate, localise, tables and pictures");
+  command->add_option("-o,--output", args.output, "folder for plan, log, estimates and pictures")
+      ->capture_default_str();
+  command->add_option("--seed", args.seed, "seed of the simulation")->capture_default_str();
+  command->callback([&] { action = [&] { return run_demo(args); }; });
+}
+
+void add_simulate(CLI::App& app, adit::SimulateArguments& args, Action& action) {
+  CLI::App* command = app.add_subcommand(
+      "simulate", "Drive through a simulated mine: plan.csv, log.clf, truth.tum, config.toml");
+  command->add_option("world", args.world, "mockup, panel, drift, or a plan's file (with --path)")
+      ->required();
+  command->add_option("-o,--output", args.output, "folder for the results")->required();
+  command->add_option("--seed", args.seed, "seed of everything random")->capture_default_str();
+  command->add_option("--clutter", args.clutter, "boxes and people that no plan shows")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 10000));
+  command->add_option("--scanner", args.scanner, "cyclone, sick, sick_lms or hokuyo")
+      ->capture_default_str();
+  command->add_option("--path", args.path, "TUM file of the poses to drive along");
+  command
+      ->add_option("--speed", args.speed,
+                   "m/s; 0 stops and scans at each pose (default: 0 in the mockup, 1 elsewhere)")
+      ->check(CLI::Range(0.0, 100.0));
+  command
+      ->add_option("--sweep", args.sweep, "time of one sweep in seconds; 0 = at once (default: 0)")
+      ->check(CLI::Range(0.0, 10.0));
+  command
+      ->add_option("--odometry", args.odometry,
+                   "one sigma of dead reckoning: ratio of the distance, degrees per metre, ratio "
+                   "of the turn (default: 0.05,1.25,0)")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--config", args.config, "TOML file: scanner and odometry");
+  command->callback([&] { action = [&] { return run_simulate(args); }; });
+}
+
+void add_localize(CLI::App& app, adit::LocalizeArguments& args, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("localize",
+                         "Where the machine was at every scan of a log: trajectory.tum, "
+                         "estimates.csv, report.json, timings.json");
+  command->add_option("--map", args.map, "plan, in metres")->required();
+  command->add_option("--log", args.log, "CARMEN log")->required();
+  command->add_option("--start", args.start,
+                      "pose at the first scan: x,y,heading in m, m, degrees (default: the log's "
+                      "first odometry pose)");
+  command->add_option("--config", args.config, "TOML file; see 'adit config --reference'");
+  command->add_option("-o,--output", args.output, "folder for the results")->capture_default_str();
+  command->add_option("--estimator", args.estimator, "features, points or full")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"features", "points", "full"}));
+  command->callback([&] { action = [&] { return run_localize(args); }; });
+}
+
+void add_evaluate(CLI::App& app, adit::EvaluateArguments& args, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("evaluate", "Errors, consistency and relations of a trajectory");
+  command->add_option("--estimate", args.estimate, "TUM trajectory or estimates.csv")->required();
+  command->add_option("--truth", args.truth, "TUM trajectory of the truth, joined within 1 ms");
+  command->add_option("--relations", args.relations, "relations file (Kuemmerle et al. 2009)");
+  command->add_flag("--json", args.json, "print JSON");
+  command->callback([&] { action = [&] { return run_evaluate(args); }; });
+}
+
+void add_map(CLI::App& app, adit::MapArguments& args, Action& action) {
+  CLI::App* command = app.add_subcommand("map", "Look at, check and convert plans");
+  command->require_subcommand(1);
+  const auto add = [&](const char* name, const char* text, int (*run)(const adit::MapArguments&)) {
+    CLI::App* sub = command->add_subcommand(name, text);
+    sub->add_option("plan", args.plan, "the plan's file")->required();
+    sub->callback([&action, &args, run] { action = [&args, run] { return run(args); }; });
+    return sub;
+  };
+  add("info", "Extent, lengths and counts of a plan", adit::run_map_info);
+  add("check",
+      "What is wrong with a plan, and what cleaning does to it; exit 1 if it needs cleaning",
+      adit::run_map_check);
+  add("convert", "Write the cleaned plan in another form", adit::run_map_convert)
+      ->add_option("-o,--output", args.output, "the file to write (.csv)")
+      ->required();
+}
+
+void add_plot(CLI::App& app, adit::PlotArguments& args, Action& action) {
+  CLI::App* command =
+      app.add_subcommand("plot", "Draw a PNG, SVG or PDF, by the ending of the output");
+  command->require_subcommand(1);
+  const auto add = [&](const char* name, const char* text, int (*run)(const adit::PlotArguments&)) {
+    CLI::App* sub = command->add_subcommand(name, text);
+    sub->add_option("-o,--output", args.output, "the picture's file")->required();
+    sub->callback([&action, &args, run] { action = [&args, run] { return run(args); }; });
+    return sub;
+  };
+  const auto map = [&](CLI::App* sub) {
+    sub->add_option("--map", args.map, "plan, in metres")->required();
+  };
+  const auto scan = [&](CLI::App* sub) {
+    sub->add_option("--scan", args.scan, "LOG:INDEX, counting scans from 0")->required();
+    sub->add_option("--config", args.config, "TOML file");
+  };
+  const auto pose = [&](CLI::App* sub) {
+    sub->add_option("--pose", args.pose, "x,y,heading in m, m, degrees")->required();
+  };
+  map(add("map", "The cleaned plan", adit::run_plot_map));
+  scan(add("scan", "A scan with its extracted features", adit::run_plot_scan));
+  CLI::App* features = add("features", "What the map shows from a pose", adit::run_plot_features);
+  map(features);
+  pose(features);
+  features->add_option("--config", args.config, "TOML file");
+  CLI::App* match =
+      add("match", "A scan on the map at a pose, with numbered pairs", adit::run_plot_match);
+  map(match);
+  scan(match);
+  pose(match);
+  CLI::App* trajectory = add("trajectory", "A trajectory on the map", adit::run_plot_trajectory);
+  map(trajectory);
+  trajectory->add_option("--trajectory,--estimate", args.trajectory, "TUM file or estimates.csv")
+      ->required();
+  trajectory->add_option("--truth", args.truth, "TUM file to draw beside it");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("adit: where is this machine in the mine, how sure is that, and can it be trusted?",
+               "adit");
+  app.set_version_flag("--version", ADIT_VERSION);
+  app.require_subcommand(1);
+  adit::DemoArguments demo;
+  adit::SimulateArguments simulate;
+  adit::LocalizeArguments localize;
+  adit::EvaluateArguments evaluate;
+  adit::MapArguments map;
+  adit::PlotArguments plot;
+  bool reference = false;
+  Action action;
+  add_demo(app, demo, action);
+  add_simulate(app, simulate, action);
+  add_localize(app, localize, action);
+  add_evaluate(app, evaluate, action);
+  add_map(app, map, action);
+  add_plot(app, plot, action);
+  CLI::App* config =
+      app.add_subcommand("config", "Print a configuration file with every key at its default");
+  config->add_flag("--reference", reference, "print the reference page (Markdown) instead");
+  config->callback([&] { action = [&] { return adit::run_config(reference); }; });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int status = app.exit(error);
+    return status == 0 ? 0 : kWrongCall;
+  }
+  try {
+    return action();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "adit: %s\n", error.what());
+    return adit::kFailed;
+  }
+}

@@ -1,0 +1,124 @@
+#include <fmt/core.h>
+
+#include <filesystem>
+
+#include "adit/config/configuration.hpp"
+#include "adit/io/carmen.hpp"
+#include "adit/io/plan.hpp"
+#include "adit/io/trajectory.hpp"
+#include "adit/simulation/clutter.hpp"
+#include "adit/simulation/mine_worlds.hpp"
+#include "adit/simulation/vehicle.hpp"
+#include "commands.hpp"
+#include "recording_log.hpp"
+#include "report_error.hpp"
+
+namespace adit {
+namespace {
+
+struct Scene {
+  World world;
+  ScannerSpec scanner;
+  DriveOptions drive;
+  bool stops = false;
+};
+
+Result<World> world_named(const SimulateArguments& arguments) {
+  World world;
+  if (arguments.world == "mockup") {
+    world = mockup();
+    world.path = mockup_path();
+  } else if (arguments.world == "panel") {
+    world = panel({}, arguments.seed);
+  } else if (arguments.world == "drift") {
+    world = drift({}, arguments.seed);
+  } else {
+    Result<Plan> plan = read_plan(arguments.world);
+    if (!plan) return tl::unexpected(plan.error());
+    world = from_plan(std::move(plan->segments));
+  }
+  if (!arguments.path.empty()) {
+    const auto path = read_trajectory(arguments.path);
+    if (!path) return tl::unexpected(path.error());
+    world.path.clear();
+    for (const StampedPose& pose : *path) world.path.push_back(pose.pose);
+  }
+  if (world.path.empty()) return fail("a plan needs --path, the poses to drive along");
+  return world;
+}
+
+/// The preset, then the configuration file over it, then the command line over both.
+Result<Scene> make_scene(const SimulateArguments& arguments) {
+  Scene scene;
+  const std::optional<ScannerSpec> preset = scanner_named(arguments.scanner);
+  if (!preset)
+    return fail("no scanner '" + arguments.scanner + "': cyclone, sick, sick_lms, hokuyo");
+  scene.scanner = *preset;
+  Configuration base;
+  base.localizer.scanner = scene.scanner.model;
+  base.localizer.odometry = scene.drive.odometry;
+  if (!arguments.config.empty()) {
+    const auto loaded = read_configuration(arguments.config, base);
+    if (!loaded) return tl::unexpected(loaded.error());
+    base = loaded->values;
+  }
+  scene.scanner.model = base.localizer.scanner;
+  scene.drive.odometry = base.localizer.odometry;
+  if (arguments.sweep) scene.scanner.model.sweep_s = *arguments.sweep;
+  if (!arguments.odometry.empty()) {
+    scene.drive.odometry.translation_sigma_ratio = arguments.odometry[0];
+    scene.drive.odometry.rotation_sigma_rad_per_m = radians(arguments.odometry[1]);
+    scene.drive.odometry.rotation_sigma_ratio = arguments.odometry[2];
+  }
+  const double speed = arguments.speed.value_or(arguments.world == "mockup" ? 0.0 : 1.0);
+  scene.stops = speed == 0.0;
+  if (!scene.stops) scene.drive.speed_m_per_s = speed;
+  auto world = world_named(arguments);
+  if (!world) return tl::unexpected(world.error());
+  scene.world = std::move(*world);
+  return scene;
+}
+
+Result<void> write_scene(const std::filesystem::path& folder, const Scene& scene,
+                         const Recording& recording) {
+  std::error_code code;
+  std::filesystem::create_directories(folder, code);
+  if (code) return fail("cannot make the folder: " + code.message(), folder.string());
+  Configuration configuration;
+  configuration.localizer.scanner = scene.scanner.model;
+  configuration.localizer.odometry = scene.drive.odometry;
+  configuration.localizer.estimation.map_sigma_m = map_sigma(scene.world);
+  return write_plan(scene.world.plan, (folder / "plan.csv").string())
+      .and_then([&] {
+        return write_carmen(to_log(recording, scene.scanner), (folder / "log.clf").string());
+      })
+      .and_then([&] { return write_trajectory(recording.truth, (folder / "truth.tum").string()); })
+      .and_then([&] {
+        return write_configuration(configuration, (folder / "config.toml").string(),
+                                   {"scanner", "odometry", "map.sigma_m"});
+      });
+}
+
+}  // namespace
+
+int run_simulate(const SimulateArguments& arguments) {
+  auto scene = make_scene(arguments);
+  if (!scene) return report(scene.error(), scene.error().file.empty() ? kWrongCall : kFailed);
+  const int pieces = add_clutter(scene->world, clutter_of(arguments.clutter), arguments.seed);
+  const Recording recording = scene->stops
+                                  ? record_stops(scene->world, scene->world.path, scene->scanner,
+                                                 scene->drive, arguments.seed)
+                                  : record_drive(scene->world, scene->world.path, scene->scanner,
+                                                 scene->drive, arguments.seed);
+  if (const auto written = write_scene(arguments.output, *scene, recording); !written) {
+    return report(written.error());
+  }
+  if (pieces < arguments.clutter) {
+    fmt::print(stderr, "adit: room for {} of {} pieces of clutter\n", pieces, arguments.clutter);
+  }
+  fmt::print("{} scans; wrote plan.csv, log.clf, truth.tum, config.toml to {}\n",
+             recording.scans.size(), arguments.output);
+  return kDone;
+}
+
+}  // namespace adit
