@@ -25,25 +25,28 @@ Linearised line_error(const Vector2d& sensed, const Vector2d& model, const Pose2
   return l;
 }
 
-/// The paper's two error measures of a corner: x and y, in the model's axes.
+/// The paper's two error measures of a corner: x and y. In the sensed frame, where its covariance
+/// does not turn with the pose.
 Linearised corner_error(const Vector2d& sensed, const Vector2d& model, const Pose2& pose) {
-  const Vector2d turned = RigidTransform(pose).direction(sensed);
+  const Vector2d axis = unit_vector(pose.theta);
+  Matrix2d sensed_from_model;
+  sensed_from_model << axis.x(), axis.y(), -axis.y(), axis.x();
+  const Vector2d seen = sensed_from_model * (model - pose.translation());
   Linearised l;
-  l.error = model - turned - pose.translation();
-  l.jacobian << -1.0, 0.0, turned.y(),  //
-      0.0, -1.0, -turned.x();
+  l.error = seen - sensed;
+  l.jacobian.leftCols<2>() = -sensed_from_model;
+  l.jacobian.col(2) = -perpendicular(seen);
   return l;
+}
+
+Linearised error_of(FeatureKind kind, const Vector2d& sensed, const Vector2d& model,
+                    const Pose2& pose) {
+  return kind == FeatureKind::line ? line_error(sensed, model, pose)
+                                   : corner_error(sensed, model, pose);
 }
 
 Vector3d difference(const Pose2& a, const Pose2& b) {
   return {a.x - b.x, a.y - b.y, wrap_angle(a.theta - b.theta)};
-}
-
-Matrix2d rotation(double angle) {
-  const Vector2d axis = unit_vector(angle);
-  Matrix2d r;
-  r << axis.x(), -axis.y(), axis.y(), axis.x();
-  return r;
 }
 
 bool well_conditioned(const Matrix3d& information) {
@@ -123,19 +126,11 @@ FeatureEstimator::System FeatureEstimator::linearise(
   System system;
   for (const Term& term : terms_) {
     if (term.dropped) continue;
-    Linearised l;
-    Matrix2d information = term.information;
-    if (term.pair.kind == FeatureKind::line) {
-      l = line_error(term.sensed, term.model, pose);
-    } else {
-      l = corner_error(term.sensed, term.model, pose);
-      const Matrix2d r = rotation(pose.theta);
-      information = r * information * r.transpose();
-    }
-    const Eigen::Matrix<double, 3, 2> weighted = l.jacobian.transpose() * information;
+    const Linearised l = error_of(term.pair.kind, term.sensed, term.model, pose);
+    const Eigen::Matrix<double, 3, 2> weighted = l.jacobian.transpose() * term.information;
     system.information.noalias() += weighted * l.jacobian;
     system.gradient.noalias() += weighted * l.error;
-    system.cost += l.error.dot(information * l.error);
+    system.cost += l.error.dot(term.information * l.error);
   }
   if (prior) {
     const Matrix3d information = prior->covariance.inverse();
@@ -178,12 +173,7 @@ bool FeatureEstimator::drop_worst(const Pose2& pose, double gate) {
   double largest = gate;
   for (Term& term : terms_) {
     if (term.dropped) continue;
-    Vector2d error;
-    if (term.pair.kind == FeatureKind::line) {
-      error = line_error(term.sensed, term.model, pose).error;
-    } else {
-      error = rotation(pose.theta).transpose() * corner_error(term.sensed, term.model, pose).error;
-    }
+    const Vector2d error = error_of(term.pair.kind, term.sensed, term.model, pose).error;
     const double chi_square = error.dot(term.information * error);
     if (chi_square > largest) {
       largest = chi_square;
