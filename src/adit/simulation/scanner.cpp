@@ -1,0 +1,163 @@
+#include "adit/simulation/scanner.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace adit {
+namespace {
+
+ScannerSpec spanning(double degrees_of_view, int beams, const ScannerModel& model) {
+  ScannerSpec spec;
+  spec.beams = beams;
+  spec.bearing_step = radians(degrees_of_view) / (beams - 1);
+  spec.first_bearing = -0.5 * radians(degrees_of_view);
+  spec.model = model;
+  return spec;
+}
+
+LaserScan empty_scan(const ScannerSpec& spec, double stamp) {
+  LaserScan scan;
+  scan.stamp = stamp;
+  scan.first_bearing = spec.first_bearing;
+  scan.bearing_step = spec.bearing_step;
+  scan.max_range = spec.model.max_range_m;
+  scan.vehicle_from_laser = spec.vehicle_from_laser;
+  scan.ranges.resize(static_cast<std::size_t>(spec.beams));
+  return scan;
+}
+
+/// What the scanner reports for a surface at `range` metres, or for none at infinity.
+double measure(double range, const ScannerSpec& spec, Random& random) {
+  const ScannerModel& model = spec.model;
+  if (spec.dust_ratio > 0.0 && random.chance(spec.dust_ratio)) {
+    range = std::min(range, -spec.dust_range_m * std::log(1.0 - random.uniform()));
+  }
+  const bool dropped = spec.dropout_ratio > 0.0 && random.chance(spec.dropout_ratio);
+  const double noise = model.range_sigma_m * random.normal();
+  if (dropped || !(range <= model.max_range_m)) return model.max_range_m;
+  double reported = range + noise;
+  if (model.quantisation_m > 0.0) {
+    reported = model.quantisation_m * std::round(reported / model.quantisation_m);
+  }
+  return reported < model.min_range_m ? model.max_range_m : std::min(reported, model.max_range_m);
+}
+
+double nearest_surface(const RayCaster& fixed, std::span<const Segment> moving,
+                       const Vector2d& origin, const Vector2d& direction, double max_range) {
+  const double range = fixed.range(origin, direction, max_range);
+  return moving.empty() ? range : std::min(range, cast_ray(moving, origin, direction, max_range));
+}
+
+double measure_beam(const RayCaster& fixed, std::span<const Segment> moving,
+                    const Pose2& map_from_laser, double bearing, const ScannerSpec& spec,
+                    Random& random) {
+  const double sigma = spec.model.bearing_sigma_rad;
+  const double jitter = sigma > 0.0 ? sigma * random.normal() : 0.0;
+  const double range =
+      nearest_surface(fixed, moving, map_from_laser.translation(),
+                      unit_vector(map_from_laser.theta + bearing + jitter), spec.model.max_range_m);
+  return measure(range, spec, random);
+}
+
+}  // namespace
+
+const char* to_string(SweepStamp stamp) {
+  switch (stamp) {
+    case SweepStamp::start:
+      return "start";
+    case SweepStamp::middle:
+      return "middle";
+    case SweepStamp::end:
+      return "end";
+  }
+  return "";
+}
+
+std::optional<SweepStamp> sweep_stamp_named(std::string_view name) {
+  for (const SweepStamp stamp : {SweepStamp::start, SweepStamp::middle, SweepStamp::end}) {
+    if (name == to_string(stamp)) return stamp;
+  }
+  return std::nullopt;
+}
+
+ScannerSpec cyclone() {
+  ScannerSpec spec;
+  spec.model = {.range_sigma_m = 0.1,
+                .quantisation_m = 0.1,
+                .bearing_sigma_rad = 0.0,
+                .max_range_m = 50.0,
+                .min_range_m = 0.1};
+  return spec;
+}
+
+ScannerSpec sick() {
+  return spanning(270.0, 1081,
+                  {.range_sigma_m = 0.015,
+                   .quantisation_m = 0.001,
+                   .bearing_sigma_rad = 0.0,
+                   .max_range_m = 80.0,
+                   .min_range_m = 0.05});
+}
+
+ScannerSpec sick_lms() {
+  return spanning(180.0, 181,
+                  {.range_sigma_m = 0.015,
+                   .quantisation_m = 0.01,
+                   .bearing_sigma_rad = 0.0,
+                   .max_range_m = 80.0,
+                   .min_range_m = 0.05});
+}
+
+ScannerSpec hokuyo() {
+  return spanning(727 * 0.33, 728,
+                  {.range_sigma_m = 0.03,
+                   .quantisation_m = 0.001,
+                   .bearing_sigma_rad = 0.0,
+                   .max_range_m = 30.0,
+                   .min_range_m = 0.06});
+}
+
+std::optional<ScannerSpec> scanner_named(std::string_view name) {
+  if (name == "cyclone") return cyclone();
+  if (name == "sick") return sick();
+  if (name == "sick_lms") return sick_lms();
+  if (name == "hokuyo") return hokuyo();
+  return std::nullopt;
+}
+
+double first_beam_lead(const ScannerSpec& spec) {
+  switch (spec.stamp) {
+    case SweepStamp::start:
+      return 0.0;
+    case SweepStamp::middle:
+      return 0.5 * spec.sweep_s;
+    case SweepStamp::end:
+      return spec.sweep_s;
+  }
+  return 0.0;
+}
+
+LaserScan simulate_scan(const RayCaster& fixed, const Pose2& map_from_vehicle,
+                        const ScannerSpec& spec, Random& random, std::span<const Segment> moving) {
+  LaserScan scan = empty_scan(spec, 0.0);
+  const Pose2 map_from_laser = map_from_vehicle * spec.vehicle_from_laser;
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
+    scan.ranges[i] = measure_beam(fixed, moving, map_from_laser, scan.bearing(i), spec, random);
+  }
+  return scan;
+}
+
+LaserScan simulate_sweep(const RayCaster& fixed, const TimedPath& map_from_vehicle, double stamp,
+                         const ScannerSpec& spec, Random& random, std::span<const Segment> moving) {
+  LaserScan scan = empty_scan(spec, stamp);
+  const double first = stamp - first_beam_lead(spec);
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
+    const double fraction = static_cast<double>(i) / static_cast<double>(spec.beams);
+    const Pose2 map_from_laser =
+        map_from_vehicle.at(first + fraction * spec.sweep_s) * spec.vehicle_from_laser;
+    scan.ranges[i] = measure_beam(fixed, moving, map_from_laser, scan.bearing(i), spec, random);
+  }
+  return scan;
+}
+
+}  // namespace adit

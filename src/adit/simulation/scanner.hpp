@@ -1,0 +1,82 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "adit/scan/laser_scan.hpp"
+#include "adit/scan/scanner_model.hpp"
+#include "adit/simulation/random.hpp"
+#include "adit/simulation/ray_caster.hpp"
+#include "adit/simulation/timed_path.hpp"
+
+namespace adit {
+
+/// Which moment of its sweep a scan's stamp names.
+enum class SweepStamp { start, middle, end };
+
+/// "start", "middle", "end".
+const char* to_string(SweepStamp stamp);
+
+/// The moment of that name; nothing for any other word.
+std::optional<SweepStamp> sweep_stamp_named(std::string_view name);
+
+/// A scanner: its beams, its noise, what goes wrong.
+struct ScannerSpec {
+  int beams = 1000;
+  double first_bearing = -kPi;          ///< rad, laser frame
+  double bearing_step = kTwoPi / 1000;  ///< rad; below zero turns clockwise
+  ScannerModel model;
+  double sweep_s = 0.0;
+  SweepStamp stamp = SweepStamp::start;
+  Pose2 vehicle_from_laser;
+  double dropout_ratio = 0.0;
+  double dust_ratio = 0.0;
+  double dust_range_m = 3.0;
+
+  template <class Self, class Field>
+  static void visit(Self& self, Field&& field) {
+    field("beams", self.beams, "beams in a sweep");
+    field("first_bearing", self.first_bearing, "bearing of the first beam (rad)");
+    field("bearing_step", self.bearing_step, "from one beam to the next (rad)");
+    ScannerModel::visit(self.model, field);
+    field("sweep_s", self.sweep_s,
+          "time of one sweep (s); beam i is taken i/n of it after the first; 0 is all at once");
+    field("dropout_ratio", self.dropout_ratio, "share of the beams that bring no return");
+    field("dust_ratio", self.dust_ratio, "share of the beams that dust sends back early");
+    field("dust_range_m", self.dust_range_m, "mean range of those, exponential (m)");
+  }
+};
+
+/// The paper's scanner (section IV-B): 1000 beams over 360°, 50 m, steps of 0.1 m; its accuracy of
+/// ±0.2 m is taken as two sigma.
+ScannerSpec cyclone();
+
+/// SICK-like: 1081 beams over 270°, sigma 15 mm, 80 m.
+ScannerSpec sick();
+
+/// SICK LMS 200-like, as in many public logs: 181 beams over 180°, sigma 15 mm, steps of 10 mm, 80
+/// m.
+ScannerSpec sick_lms();
+
+/// Hokuyo-like: 728 beams over 240°, sigma 30 mm, 30 m.
+ScannerSpec hokuyo();
+
+/// "cyclone", "sick", "sick_lms" or "hokuyo"; nothing for any other name.
+std::optional<ScannerSpec> scanner_named(std::string_view name);
+
+/// How long before a scan's stamp its first beam is taken (s).
+double first_beam_lead(const ScannerSpec& spec);
+
+/// A scan of a vehicle at rest. A beam without return is stored as the maximum range. `moving` are
+/// outlines that are not in `fixed`, such as people at this time.
+LaserScan simulate_scan(const RayCaster& fixed, const Pose2& map_from_vehicle,
+                        const ScannerSpec& spec, Random& random,
+                        std::span<const Segment> moving = {});
+
+/// A scan of a vehicle on the move: each beam from where the vehicle is at its own time.
+LaserScan simulate_sweep(const RayCaster& fixed, const TimedPath& map_from_vehicle, double stamp,
+                         const ScannerSpec& spec, Random& random,
+                         std::span<const Segment> moving = {});
+
+}  // namespace adit

@@ -1,0 +1,60 @@
+#include "adit/simulation/world.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace adit {
+namespace {
+
+constexpr int kPersonSides = 8;
+
+/// How far along its beat a person is who turns round at both ends, in [0, 1].
+double pacing_fraction(const Person& person, double stamp) {
+  const double beat = (person.to - person.from).norm();
+  if (person.speed <= 0.0 || beat <= 0.0) return 0.0;
+  const double laps = stamp * person.speed / beat;
+  const double phase = laps - 2.0 * std::floor(laps / 2.0);
+  return phase <= 1.0 ? phase : 2.0 - phase;
+}
+
+}  // namespace
+
+std::vector<Segment> fixed_segments(const World& world) {
+  std::vector<Segment> all = world.walls;
+  all.insert(all.end(), world.clutter.begin(), world.clutter.end());
+  return all;
+}
+
+std::vector<Segment> people_at(const World& world, double stamp) {
+  std::vector<Segment> all;
+  for (const Person& person : world.people) {
+    const Vector2d center =
+        person.from + pacing_fraction(person, stamp) * (person.to - person.from);
+    std::array<Vector2d, kPersonSides> corners;
+    for (int i = 0; i < kPersonSides; ++i) {
+      corners[static_cast<std::size_t>(i)] =
+          center + 0.5 * person.diameter * unit_vector(kTwoPi * i / kPersonSides);
+    }
+    const std::vector<Segment> body = outline(corners);
+    all.insert(all.end(), body.begin(), body.end());
+  }
+  return all;
+}
+
+std::vector<Segment> outline(std::span<const Vector2d> points) {
+  std::vector<Segment> closed;
+  closed.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    closed.push_back({points[i], points[(i + 1) % points.size()]});
+  }
+  return closed;
+}
+
+World from_plan(std::vector<Segment> segments) {
+  World world;
+  world.walls = segments;
+  world.plan = std::move(segments);
+  return world;
+}
+
+}  // namespace adit
