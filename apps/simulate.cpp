@@ -1,6 +1,8 @@
 #include <fmt/core.h>
 
+#include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "adit/config/configuration.hpp"
 #include "adit/io/carmen.hpp"
@@ -45,6 +47,22 @@ Result<World> world_named(const SimulateArguments& arguments) {
   }
   if (world.path.empty()) return fail("a plan needs --path, the poses to drive along");
   return world;
+}
+
+/// How far the walls stand from the plan, RMS over their midpoints (m): what a surveyor would
+/// state.
+double map_sigma(const World& world) {
+  const bool exact = world.walls.size() == world.plan.size();
+  if (exact || world.walls.empty()) return 0.0;
+  double sum = 0.0;
+  for (const Segment& wall : world.walls) {
+    const Vector2d middle = 0.5 * (wall.a + wall.b);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Segment& planned : world.plan)
+      nearest = std::min(nearest, distance(planned, middle));
+    sum += nearest * nearest;
+  }
+  return std::sqrt(sum / static_cast<double>(world.walls.size()));
 }
 
 /// The preset, then the configuration file over it, then the command line over both.

@@ -216,7 +216,7 @@ void FeatureEstimator::summarise(const std::optional<PoseWithCovariance>& prior,
   fit.used = static_cast<int>(used_.size());
   fit.information = features.information;
   fit.chi_square = features.cost;
-  fit.degrees_of_freedom = errors - 3;
+  fit.degrees_of_freedom = std::max(0, errors - 3);
   if (!fit.converged) return;
   fit.covariance = linearise(fit.pose, prior).information.inverse();
   if (options.weighting == Weighting::points && fit.degrees_of_freedom > 0) {

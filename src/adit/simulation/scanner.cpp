@@ -61,25 +61,6 @@ double measure_beam(const RayCaster& fixed, std::span<const Segment> moving,
 
 }  // namespace
 
-const char* to_string(SweepStamp stamp) {
-  switch (stamp) {
-    case SweepStamp::start:
-      return "start";
-    case SweepStamp::middle:
-      return "middle";
-    case SweepStamp::end:
-      return "end";
-  }
-  return "";
-}
-
-std::optional<SweepStamp> sweep_stamp_named(std::string_view name) {
-  for (const SweepStamp stamp : {SweepStamp::start, SweepStamp::middle, SweepStamp::end}) {
-    if (name == to_string(stamp)) return stamp;
-  }
-  return std::nullopt;
-}
-
 ScannerSpec cyclone() {
   ScannerSpec spec;
   spec.model = {.range_sigma_m = 0.1,
@@ -126,13 +107,13 @@ std::optional<ScannerSpec> scanner_named(std::string_view name) {
 }
 
 double first_beam_lead(const ScannerSpec& spec) {
-  switch (spec.stamp) {
-    case SweepStamp::start:
+  switch (spec.model.stamp) {
+    case SweepMoment::start:
       return 0.0;
-    case SweepStamp::middle:
-      return 0.5 * spec.sweep_s;
-    case SweepStamp::end:
-      return spec.sweep_s;
+    case SweepMoment::middle:
+      return 0.5 * spec.model.sweep_s;
+    case SweepMoment::end:
+      return spec.model.sweep_s;
   }
   return 0.0;
 }
@@ -154,7 +135,7 @@ LaserScan simulate_sweep(const RayCaster& fixed, const TimedPath& map_from_vehic
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
     const double fraction = static_cast<double>(i) / static_cast<double>(spec.beams);
     const Pose2 map_from_laser =
-        map_from_vehicle.at(first + fraction * spec.sweep_s) * spec.vehicle_from_laser;
+        map_from_vehicle.at(first + fraction * spec.model.sweep_s) * spec.vehicle_from_laser;
     scan.ranges[i] = measure_beam(fixed, moving, map_from_laser, scan.bearing(i), spec, random);
   }
   return scan;

@@ -12,23 +12,12 @@
 
 namespace adit {
 
-/// Which moment of its sweep a scan's stamp names.
-enum class SweepStamp { start, middle, end };
-
-/// "start", "middle", "end".
-const char* to_string(SweepStamp stamp);
-
-/// The moment of that name; nothing for any other word.
-std::optional<SweepStamp> sweep_stamp_named(std::string_view name);
-
 /// A scanner: its beams, its noise, what goes wrong.
 struct ScannerSpec {
   int beams = 1000;
   double first_bearing = -kPi;          ///< rad, laser frame
   double bearing_step = kTwoPi / 1000;  ///< rad; below zero turns clockwise
   ScannerModel model;
-  double sweep_s = 0.0;
-  SweepStamp stamp = SweepStamp::start;
   Pose2 vehicle_from_laser;
   double dropout_ratio = 0.0;
   double dust_ratio = 0.0;
@@ -40,8 +29,6 @@ struct ScannerSpec {
     field("first_bearing", self.first_bearing, "bearing of the first beam (rad)");
     field("bearing_step", self.bearing_step, "from one beam to the next (rad)");
     ScannerModel::visit(self.model, field);
-    field("sweep_s", self.sweep_s,
-          "time of one sweep (s); beam i is taken i/n of it after the first; 0 is all at once");
     field("dropout_ratio", self.dropout_ratio, "share of the beams that bring no return");
     field("dust_ratio", self.dust_ratio, "share of the beams that dust sends back early");
     field("dust_range_m", self.dust_range_m, "mean range of those, exponential (m)");

@@ -38,8 +38,6 @@ TEST(Scanner, PresetsHaveTheFieldsOfViewOfTheirNames) {
   EXPECT_FALSE(simulate_scan(RayCaster(room(5.0)), {}, sick(), random).is_full_circle());
   EXPECT_TRUE(scanner_named("hokuyo").has_value());
   EXPECT_FALSE(scanner_named("sonar").has_value());
-  EXPECT_EQ(sweep_stamp_named(to_string(SweepStamp::middle)), SweepStamp::middle);
-  EXPECT_FALSE(sweep_stamp_named("later").has_value());
 }
 
 TEST(Scanner, WithoutNoiseMeasuresWhatBruteForceSays) {
@@ -134,7 +132,7 @@ TEST(Scanner, SeesWhatMoves) {
   EXPECT_NEAR(scan.ranges[500], 1.0, 1e-9);
 }
 
-class Sweep : public ::testing::TestWithParam<SweepStamp> {};
+class Sweep : public ::testing::TestWithParam<SweepMoment> {};
 
 TEST_P(Sweep, TakesEachBeamFromWhereTheVehicleIsThen) {
   const World world = mockup();
@@ -143,14 +141,14 @@ TEST_P(Sweep, TakesEachBeamFromWhereTheVehicleIsThen) {
   const Pose2 to{3.2, 8.0, radians(110.0)};
   const TimedPath path{{{10.0, from}, {11.0, to}}};
   ScannerSpec spec = noiseless(cyclone());
-  spec.sweep_s = 0.2;
-  spec.stamp = GetParam();
+  spec.model.sweep_s = 0.2;
+  spec.model.stamp = GetParam();
   spec.vehicle_from_laser = {0.5, 0.1, 0.2};
   Random random(1);
   const LaserScan scan = simulate_sweep(caster, path, 10.5, spec, random);
-  const double first = spec.stamp == SweepStamp::start    ? 10.5
-                       : spec.stamp == SweepStamp::middle ? 10.4
-                                                          : 10.3;
+  const double first = spec.model.stamp == SweepMoment::start    ? 10.5
+                       : spec.model.stamp == SweepMoment::middle ? 10.4
+                                                                 : 10.3;
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
     const double t = first + 0.2 * static_cast<double>(i) / 1000.0;
     const Pose2 laser = interpolate(from, to, t - 10.0) * spec.vehicle_from_laser;
@@ -162,7 +160,8 @@ TEST_P(Sweep, TakesEachBeamFromWhereTheVehicleIsThen) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Stamps, Sweep,
-                         ::testing::Values(SweepStamp::start, SweepStamp::middle, SweepStamp::end));
+                         ::testing::Values(SweepMoment::start, SweepMoment::middle,
+                                           SweepMoment::end));
 
 TEST(TimedPath, DrivesAsFastAsSpeedAndTurnRateAllow) {
   const std::vector<Pose2> poses{

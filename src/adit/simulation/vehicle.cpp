@@ -81,7 +81,7 @@ std::vector<Pose2> hops_at_stops(std::size_t stops, const DriveOptions& options,
 std::vector<double> scan_stamps(const TimedPath& path, const ScannerSpec& spec, double rate_hz) {
   std::vector<double> stamps;
   const double lead = first_beam_lead(spec);
-  const double tail = spec.sweep_s - lead;
+  const double tail = spec.model.sweep_s - lead;
   for (int i = 0;; ++i) {
     const double stamp = path.begin() + lead + i / rate_hz;
     if (stamp + tail > path.end() && i > 0) return stamps;

@@ -214,8 +214,8 @@ TEST(RecordDrive, ErrsAsDeclaredBetweenScans) {
 TEST(RecordDrive, SweepsLieWithinTheDrive) {
   const World world = mockup();
   ScannerSpec spec = few_beams();
-  spec.sweep_s = 0.1;
-  spec.stamp = SweepStamp::end;
+  spec.model.sweep_s = 0.1;
+  spec.model.stamp = SweepMoment::end;
   const Recording run = record_drive(world, world.path, spec, {}, 2);
   EXPECT_DOUBLE_EQ(run.truth.front().stamp, 0.1);
   const Recording still = record_drive(world, {world.path.data(), 1}, spec, {}, 2);

@@ -1,0 +1,123 @@
+#include <fmt/core.h>
+
+#include "adit/io/estimates.hpp"
+#include "adit/io/plan.hpp"
+#include "adit/io/trajectory.hpp"
+#include "adit/plot/figures.hpp"
+#include "commands.hpp"
+#include "parse_pose.hpp"
+#include "report_error.hpp"
+#include "scan_reference.hpp"
+
+namespace adit {
+namespace {
+
+Result<LineMap> read_map(const std::string& path) {
+  return read_plan(path).map([](const Plan& plan) { return LineMap::build(plan.segments); });
+}
+
+int finish(const Result<void>& drawn, const std::string& path) {
+  if (!drawn) return report(drawn.error());
+  fmt::print("wrote {}\n", path);
+  return kDone;
+}
+
+Result<std::vector<TrajectoryPoint>> read_run(const std::string& path) {
+  if (path.ends_with(".csv")) {
+    return read_estimates(path).map([](const std::vector<EstimateRow>& rows) {
+      std::vector<TrajectoryPoint> run;
+      for (const EstimateRow& row : rows) run.push_back({row.pose, row.covariance, row.status});
+      return run;
+    });
+  }
+  return read_trajectory(path).map([](const std::vector<StampedPose>& poses) {
+    std::vector<TrajectoryPoint> run;
+    for (const StampedPose& pose : poses) run.push_back({pose.pose, std::nullopt, std::nullopt});
+    return run;
+  });
+}
+
+}  // namespace
+
+int run_plot_map(const PlotArguments& arguments) {
+  const auto map = read_map(arguments.map);
+  if (!map) return report(map.error());
+  return finish(draw_map(arguments.output, plan_of(*map)), arguments.output);
+}
+
+int run_plot_scan(const PlotArguments& arguments) {
+  const auto scan = read_referenced_scan(arguments.scan, arguments.config);
+  if (!scan) return report(scan.error());
+  const LocalizerSettings& settings = scan->settings.configuration.localizer;
+  Extractor extractor;
+  ScanView view;
+  view.scan = &scan->scan.scan;
+  view.features = &extractor.extract(scan->scan.scan, settings.scanner, settings.extraction);
+  return finish(draw_scan(arguments.output, view), arguments.output);
+}
+
+int run_plot_features(const PlotArguments& arguments) {
+  const auto map = read_map(arguments.map);
+  if (!map) return report(map.error());
+  const auto pose = parse_pose(arguments.pose);
+  if (!pose) return report(pose.error(), kWrongCall);
+  LoadedConfiguration loaded;
+  if (!arguments.config.empty()) {
+    auto read = read_configuration(arguments.config);
+    if (!read) return report(read.error());
+    loaded = std::move(*read);
+  }
+  const LocalizerSettings& settings = loaded.values.localizer;
+  Visibility visibility;
+  visibility.sweep(*map, pose->translation(), settings.scanner.max_range_m);
+  ViewFromPlace view;
+  view.position = pose->translation();
+  view.intervals.assign(visibility.intervals().begin(), visibility.intervals().end());
+  predict_features(*map, visibility, view.position, settings.prediction, view.features);
+  return finish(
+      draw_visible_features(arguments.output, plan_of(*map), std::vector<ViewFromPlace>{view}),
+      arguments.output);
+}
+
+int run_plot_match(const PlotArguments& arguments) {
+  const auto map = read_map(arguments.map);
+  if (!map) return report(map.error());
+  const auto pose = parse_pose(arguments.pose);
+  if (!pose) return report(pose.error(), kWrongCall);
+  const auto scan = read_referenced_scan(arguments.scan, arguments.config);
+  if (!scan) return report(scan.error());
+  Localizer localizer(*map, scan->settings.configuration.localizer);
+  localizer.start(*pose);
+  const Estimate& estimate = localizer.update(scan->scan.scan, scan->scan.odom_from_vehicle);
+  const Pose2 mounting = scan->scan.scan.vehicle_from_laser;
+  const Vector2d observer = (localizer.predicted().pose * mounting).translation();
+  const std::vector<Segment> plan = plan_of(*map);
+  MatchView view;
+  view.plan = plan;
+  view.model = &localizer.model_features();
+  view.map_from_model = {observer.x(), observer.y(), 0.0};
+  view.sensed = &localizer.sensed_features();
+  view.map_from_sensed = estimate.pose * mounting;
+  view.pairs = estimate.pairs;
+  fmt::print("{}: x {:.3f} m, y {:.3f} m, heading {:.2f} degrees, {} pairs\n",
+             to_string(estimate.status), estimate.pose.x, estimate.pose.y,
+             degrees(estimate.pose.theta), estimate.pairs.size());
+  return finish(draw_match(arguments.output, view), arguments.output);
+}
+
+int run_plot_trajectory(const PlotArguments& arguments) {
+  const auto map = read_map(arguments.map);
+  if (!map) return report(map.error());
+  const auto run = read_run(arguments.trajectory);
+  if (!run) return report(run.error());
+  std::vector<Pose2> reference;
+  if (!arguments.truth.empty()) {
+    const auto truth = read_trajectory(arguments.truth);
+    if (!truth) return report(truth.error());
+    for (const StampedPose& pose : *truth) reference.push_back(pose.pose);
+  }
+  return finish(draw_trajectory(arguments.output, plan_of(*map), *run, reference),
+                arguments.output);
+}
+
+}  // namespace adit

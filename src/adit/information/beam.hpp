@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "adit/geometry/pose2.hpp"
+#include "adit/scan/scanner_model.hpp"
+
+namespace adit {
+
+/// Variance (m²) of measured minus predicted range for one beam that meets a wall at incidence
+/// beta.
+///
+/// The sum of the range noise, the rounding to `quantisation_m` (uniform, hence a twelfth of its
+/// square), a wall that lies `map_sigma_m` off its line, which the beam sees stretched by 1 / cos
+/// beta, and a beam that points beside its bearing. `cos_incidence` is |n . d| of the wall's unit
+/// normal and the beam's direction; infinity where it is zero: a wall seen edge-on tells nothing.
+inline double beam_variance(const ScannerModel& scanner, double range, double cos_incidence,
+                            double map_sigma_m) {
+  const double cos_squared = cos_incidence * cos_incidence;
+  if (!(cos_squared > 0.0)) return std::numeric_limits<double>::infinity();
+  const double tan_squared = std::fmax(0.0, 1.0 - cos_squared) / cos_squared;
+  const double beside = range * scanner.bearing_sigma_rad;
+  return scanner.range_sigma_m * scanner.range_sigma_m +
+         scanner.quantisation_m * scanner.quantisation_m / 12.0 +
+         map_sigma_m * map_sigma_m / cos_squared + beside * beside * tan_squared;
+}
+
+/// Derivative of the predicted range with respect to (x, y, theta) of the laser in the map.
+///
+/// `direction` is the beam's unit vector and `normal` the wall's unit normal (either sign), both in
+/// map axes: -(n_x, n_y, r n . d_perp) / (n . d), Censi 2007. Not finite for a wall seen edge-on.
+inline Vector3d range_gradient(double range, const Vector2d& direction, const Vector2d& normal) {
+  const double scale = -1.0 / normal.dot(direction);
+  return {scale * normal.x(), scale * normal.y(),
+          scale * range * normal.dot(perpendicular(direction))};
+}
+
+/// The laser's gradient made the gradient with respect to the pose of the vehicle that carries it.
+///
+/// `lever_arm` is the laser's position relative to the vehicle's, in map axes (m): turning the
+/// vehicle also moves the laser sideways.
+inline Vector3d vehicle_gradient(const Vector3d& laser_gradient, const Vector2d& lever_arm) {
+  return {laser_gradient.x(), laser_gradient.y(),
+          laser_gradient.z() + laser_gradient.head<2>().dot(perpendicular(lever_arm))};
+}
+
+}  // namespace adit
