@@ -45,6 +45,7 @@ LocalizerSettings settings_for(const ScannerSpec& spec, const DriveOptions& driv
   LocalizerSettings settings;
   settings.scanner = spec.model;
   settings.odometry = drive.odometry;
+  settings.estimation.map_sigma_m = 0.0;  // the mockup's plan is exact
   return settings;
 }
 

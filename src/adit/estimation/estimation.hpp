@@ -17,7 +17,7 @@ enum class Weighting {
 
 struct EstimationOptions {
   Weighting weighting = Weighting::covariance;
-  double map_sigma_m = 0.0;
+  double map_sigma_m = 0.05;
   double gate_chi_square = 16.0;
   int max_iterations = 20;
   double step_m = 1e-6;

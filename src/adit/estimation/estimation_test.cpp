@@ -73,6 +73,12 @@ void expect_pose_near(const Pose2& actual, const Pose2& expected, double toleran
   EXPECT_NEAR(angle_between(expected.theta, actual.theta), 0.0, tolerance);
 }
 
+EstimationOptions perfect_map() {
+  EstimationOptions options;
+  options.map_sigma_m = 0.0;
+  return options;
+}
+
 struct Situation {
   Weighting weighting;
   bool lines;
@@ -83,7 +89,7 @@ class ExactFeatures : public testing::TestWithParam<Situation> {};
 
 TEST_P(ExactFeatures, GiveTheExactPoseFromNinetyDegreesAway) {
   const FeatureList model = room();
-  EstimationOptions options;
+  EstimationOptions options = perfect_map();
   options.weighting = GetParam().weighting;
   options.gate_chi_square = 1e300;
   std::mt19937_64 random(7);
@@ -120,7 +126,7 @@ TEST(Estimation, CovarianceAndChiSquareHoldUnderTheNoiseTheyAssume) {
   for (unsigned seed = 0; seed < runs; ++seed) {
     const FeatureList sensed = sense(model, truth, 1.0, seed);
     FeatureEstimator estimator;
-    EstimationOptions options;
+    EstimationOptions options = perfect_map();
     options.gate_chi_square = 1e9;
     const FeatureFit fit =
         estimator.fit(sensed, model, all_pairs(true, false), {0.3, -0.2, 0.6}, options);
@@ -142,8 +148,8 @@ TEST(Estimation, ACornerOfMatchedLinesTellsNothingNew) {
   const FeatureList model = room();
   const FeatureList sensed = sense(model, {0.1, 0.1, 0.1}, 1.0, 3);
   FeatureEstimator estimator;
-  const FeatureFit lines = estimator.fit(sensed, model, all_pairs(true, false), {}, {});
-  const FeatureFit both = estimator.fit(sensed, model, all_pairs(true, true), {}, {});
+  const FeatureFit lines = estimator.fit(sensed, model, all_pairs(true, false), {}, perfect_map());
+  const FeatureFit both = estimator.fit(sensed, model, all_pairs(true, true), {}, perfect_map());
   EXPECT_TRUE(lines.covariance.isApprox(both.covariance, 1e-9));
   expect_pose_near(both.pose, lines.pose, 1e-9);
 }
@@ -154,9 +160,9 @@ TEST(Estimation, OneLineTwiceMatchedCountsOnce) {
   model.lines.push_back(model.lines[0]);  // the wall's other half, beyond an opening
   std::vector<FeaturePair> pairs = all_pairs(true, false);
   FeatureEstimator estimator;
-  const Matrix3d once = estimator.fit(sensed, model, pairs, {}, {}).covariance;
+  const Matrix3d once = estimator.fit(sensed, model, pairs, {}, perfect_map()).covariance;
   pairs.push_back({FeatureKind::line, 0, 4});
-  const Matrix3d twice = estimator.fit(sensed, model, pairs, {}, {}).covariance;
+  const Matrix3d twice = estimator.fit(sensed, model, pairs, {}, perfect_map()).covariance;
   EXPECT_TRUE(once.isApprox(twice, 1e-9));
 }
 
@@ -166,7 +172,7 @@ TEST(Estimation, DropsThePairThatIsWrong) {
   FeatureList sensed = sense(model, truth, 0.0, 3);
   sensed.lines[2].distance += 0.5;
   FeatureEstimator estimator;
-  const FeatureFit fit = estimator.fit(sensed, model, all_pairs(true, false), {}, {});
+  const FeatureFit fit = estimator.fit(sensed, model, all_pairs(true, false), {}, perfect_map());
   ASSERT_TRUE(fit.converged);
   EXPECT_EQ(fit.dropped, 1);
   EXPECT_EQ(estimator.pairs_used().size(), 3u);
@@ -181,10 +187,10 @@ TEST(Estimation, WhatTwoParallelWallsDoNotTellComesFromThePrior) {
   const FeatureList sensed = sense(model, truth, 0.0, 3);
   const std::vector<FeaturePair> pairs = {{FeatureKind::line, 0, 0}, {FeatureKind::line, 1, 1}};
   FeatureEstimator estimator;
-  EXPECT_FALSE(estimator.fit(sensed, model, pairs, {}, {}).converged);
+  EXPECT_FALSE(estimator.fit(sensed, model, pairs, {}, perfect_map()).converged);
 
   PoseWithCovariance prior{{0.7, 0.0, 0.0}, Vector3d(0.25, 0.25, 0.01).asDiagonal()};
-  const FeatureFit fit = estimator.fit(sensed, model, pairs, prior.pose, {}, prior);
+  const FeatureFit fit = estimator.fit(sensed, model, pairs, prior.pose, perfect_map(), prior);
   ASSERT_TRUE(fit.converged);
   EXPECT_NEAR(fit.pose.x, 0.7, 1e-3);  // along the walls: as believed before
   EXPECT_NEAR(fit.pose.y, 0.3, 2e-3);  // across: as seen
@@ -204,7 +210,7 @@ TEST(Estimation, AnOccludingCornerOfAMatchedLineTellsWhereAlongIt) {
   FeatureList sensed = sense(model, truth, 0.0, 3);
   const std::vector<FeaturePair> pairs = {{FeatureKind::line, 0, 0}, {FeatureKind::corner, 0, 0}};
   FeatureEstimator estimator;
-  const FeatureFit fit = estimator.fit(sensed, model, pairs, {}, {});
+  const FeatureFit fit = estimator.fit(sensed, model, pairs, {}, perfect_map());
   ASSERT_TRUE(fit.converged);
   EXPECT_EQ(fit.degrees_of_freedom, 0);  // two of the line, one of the corner
   expect_pose_near(fit.pose, truth, 1e-6);
@@ -212,7 +218,7 @@ TEST(Estimation, AnOccludingCornerOfAMatchedLineTellsWhereAlongIt) {
 
 TEST(Estimation, NoPairsAndNoPriorDoNotConverge) {
   FeatureEstimator estimator;
-  const FeatureFit fit = estimator.fit({}, {}, {}, {1, 2, 3}, {});
+  const FeatureFit fit = estimator.fit({}, {}, {}, {1, 2, 3}, perfect_map());
   EXPECT_FALSE(fit.converged);
   EXPECT_EQ(fit.used, 0);
 }

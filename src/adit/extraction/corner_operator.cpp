@@ -66,6 +66,7 @@ BestCut search(const ScanPoints& points, Stretch s, std::size_t min_points) {
 void CornerOperator::find(const ScanPoints& points, Stretch piece, const std::vector<double>& sizes,
                           const CornerDecision& decision, std::vector<std::size_t>& cuts) {
   accepted_.clear();
+  settled_.assign(points.size(), 0);
   for (const double size : sizes) {
     slide(points, piece, size, decision);
     accept_peaks(points, decision);
@@ -85,27 +86,50 @@ void CornerOperator::slide(const ScanPoints& points, Stretch piece, double size,
   std::size_t low = piece.begin;
   std::size_t high = piece.begin;
   for (std::size_t i = piece.begin + decision.min_points; i + decision.min_points <= piece.end;) {
-    while (squared_distance(points, low, i) > squared_size) ++low;
+    if (settled_[i] != 0) {
+      ++i;
+      continue;
+    }
+    // The arms' ends need not be exact: they move in steps of an eighth of the arm.
+    while (squared_distance(points, low, i) > squared_size) low += 1 + (i - low) / 8;
+    low = std::min(low, i);
     high = std::max(high, i);
-    while (high < piece.end && squared_distance(points, high, i) <= squared_size) ++high;
+    while (high < piece.end && squared_distance(points, high, i) <= squared_size) {
+      high += 1 + (high - i) / 8;
+    }
+    high = std::min(high, piece.end);
     const std::size_t left = i - low;
     const std::size_t right = high - i;
-    const bool long_enough = left >= decision.min_points && right >= decision.min_points &&
-                             squared_distance(points, low, i) >= squared_least &&
-                             squared_distance(points, high - 1, i) >= squared_least;
-    if (long_enough && !covered(i)) {
-      const Stretch window{low, high};
-      const double gain = points.chi_square(low, high) - two_lines(points, window, i);
-      responses_.push_back({i, low, high, gain});
+    if (left >= decision.min_points && right >= decision.min_points &&
+        squared_distance(points, low, i) >= squared_least &&
+        squared_distance(points, high - 1, i) >= squared_least) {
+      apply(points, {low, high}, i);
     }
     i += std::max<std::size_t>(1, std::min(left, right) / 4);
   }
 }
 
-bool CornerOperator::covered(std::size_t point) const {
+/// One position of the operator. A window that one line explains well hides no smaller corner.
+void CornerOperator::apply(const ScanPoints& points, Stretch window, std::size_t at) {
+  const double one_line = points.chi_square(window.begin, window.end);
+  const double freedom = static_cast<double>(window.size()) - 2.0;
+  if (one_line < freedom + std::sqrt(2.0 * freedom)) {
+    std::fill(settled_.begin() + static_cast<std::ptrdiff_t>(window.begin),
+              settled_.begin() + static_cast<std::ptrdiff_t>(window.end), char{1});
+    return;
+  }
+  responses_.push_back({at, window.begin, window.end, one_line - two_lines(points, window, at)});
+}
+
+bool CornerOperator::is_taken(std::size_t point) const {
   return std::any_of(accepted_.begin(), accepted_.end(), [point](const Response& corner) {
     return point >= corner.arm_begin && point < corner.arm_end;
   });
+}
+
+void CornerOperator::settle(const Response& corner) {
+  std::fill(settled_.begin() + static_cast<std::ptrdiff_t>(corner.arm_begin),
+            settled_.begin() + static_cast<std::ptrdiff_t>(corner.arm_end), char{1});
 }
 
 void CornerOperator::accept_peaks(const ScanPoints& points, const CornerDecision& decision) {
@@ -118,9 +142,9 @@ void CornerOperator::accept_peaks(const ScanPoints& points, const CornerDecision
     const BestCut best = descend(points, window, here.point, decision.min_points);
     const bool fits = is_straight(points, {window.begin, best.cut}, decision.straight_sigmas) &&
                       is_straight(points, {best.cut, window.end}, decision.straight_sigmas);
-    if (fits && !covered(best.cut)) {
-      accepted_.push_back({best.cut, window.begin, window.end, best.gain});
-    }
+    if (!fits || is_taken(best.cut)) continue;
+    accepted_.push_back({best.cut, window.begin, window.end, best.gain});
+    settle(accepted_.back());
   }
 }
 

@@ -44,11 +44,14 @@ class CornerOperator {
 
  private:
   void slide(const ScanPoints& points, Stretch piece, double size, const CornerDecision& decision);
-  bool covered(std::size_t point) const;
+  void apply(const ScanPoints& points, Stretch window, std::size_t at);
+  void settle(const Response& corner);
+  bool is_taken(std::size_t point) const;
   void accept_peaks(const ScanPoints& points, const CornerDecision& decision);
 
   std::vector<Response> responses_;
   std::vector<Response> accepted_;
+  std::vector<char> settled_;  // of each point: whether smaller operators need not look there
 };
 
 /// Whether a stretch is straight within noise.

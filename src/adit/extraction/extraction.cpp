@@ -54,8 +54,10 @@ void Extractor::cut_into_stretches(const ExtractionOptions& options) {
 
 void Extractor::fit_lines(const ExtractionOptions& options) {
   line_.clear();
-  for (const Stretch& stretch : stretches_) {
-    const auto line = fit_wall_line(points_, stretch, options.min_line_points);
+  for (std::size_t s = 0; s < stretches_.size(); ++s) {
+    const CutEnds cuts{s > 0 && piece_[s - 1] == piece_[s],
+                       s + 1 < stretches_.size() && piece_[s + 1] == piece_[s]};
+    const auto line = fit_wall_line(points_, stretches_[s], options.min_line_points, cuts);
     const bool usable = line && line->length() >= options.min_line_m && line->distance > 0.0;
     line_.push_back(usable ? static_cast<int>(features_.lines.size()) : -1);
     if (usable) features_.lines.push_back(*line);

@@ -1,9 +1,8 @@
 #include "adit/extraction/noise_estimate.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-
-#include <Eigen/LU>
 
 namespace adit {
 namespace {
@@ -13,7 +12,7 @@ constexpr double kGrazing = 0.15;        // rad
 constexpr std::size_t kShortWindow = 8;  // points
 constexpr double kLongWindow = 2.0;      // m
 constexpr std::size_t kLongWindowPoints = 15;
-constexpr std::size_t kLeastWindows = 50;
+constexpr std::size_t kLeastWindows = 6;
 constexpr double kQuantile = 0.3;
 // The 30 % quantile of chi-square with six degrees of freedom, over six.
 constexpr double kQuantileOfStraight = 3.8276 / 6.0;
@@ -84,7 +83,7 @@ std::optional<ScatterEstimate> ScatterEstimator::estimate() const {
   for (const LongWindow& w : long_windows_) {
     excess.push_back(w.across_variance - variance * w.cos2);
   }
-  const double rough = quantile(std::move(excess), 0.5);
+  const double rough = quantile(std::move(excess), kQuantile);
   if (rough > 0.25 * variance) result.roughness_m = std::sqrt(rough);
   return result;
 }

@@ -29,8 +29,9 @@ void ScanPoints::build(const LaserScan& scan, const ScannerModel& scanner, doubl
   noise_.beam_variance = std::max(sigma * sigma, 1e-8);
   noise_.roughness_variance = roughness * roughness;
   noise_.bearing_variance = scanner.bearing_sigma_rad * scanner.bearing_sigma_rad;
-  inverse_sin_grazing_ = 1.0 / std::sin(grazing);
+  reach_of_noise_ = 4.0 * std::sqrt(2.0 * (noise_.beam_variance + noise_.roughness_variance));
   prepare_beams(scan);
+  spacing_per_metre_ = std::abs(step_) / std::sin(grazing);
   collect(scan, scanner);
   closed_ = false;
   if (full_circle_ && size() > 2) {
@@ -70,29 +71,29 @@ void ScanPoints::prepare_beams(const LaserScan& scan) {
 
 void ScanPoints::collect(const LaserScan& scan, const ScannerModel& scanner) {
   const std::size_t n = scan.ranges.size();
-  x_.clear();
-  y_.clear();
-  range_.clear();
-  beam_.clear();
+  for (auto* v : {&x_, &y_, &range_}) v->resize(n);
+  beam_.resize(n);
   const double longest =
       std::min(scan.max_range > 0.0 ? scan.max_range : scanner.max_range_m, scanner.max_range_m);
+  std::size_t count = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const double r = scan.ranges[step_ < 0.0 ? n - 1 - k : k];
     if (!(r > scanner.min_range_m && r < longest)) continue;
-    x_.push_back(r * cos_[k]);
-    y_.push_back(r * sin_[k]);
-    range_.push_back(r);
-    beam_.push_back(static_cast<int>(k));
+    x_[count] = r * cos_[k];
+    y_[count] = r * sin_[k];
+    range_[count] = r;
+    beam_[count] = static_cast<int>(k);
+    ++count;
   }
+  for (auto* v : {&x_, &y_, &range_}) v->resize(count);
+  beam_.resize(count);
 }
 
 bool ScanPoints::joined(std::size_t i, std::size_t j) const {
   int beams = beam_[j] - beam_[i];
   if (beams <= 0) beams += beam_count();
   const double nearer = std::min(range_[i], range_[j]);
-  const double spacing = nearer * std::abs(step_) * beams * inverse_sin_grazing_;
-  const double noise = 4.0 * std::sqrt(2.0 * (noise_.beam_variance + noise_.roughness_variance));
-  const double limit = spacing + noise;
+  const double limit = nearer * spacing_per_metre_ * beams + reach_of_noise_;
   const double dx = x_[j] - x_[i];
   const double dy = y_[j] - y_[i];
   return dx * dx + dy * dy <= limit * limit;

@@ -73,7 +73,8 @@ class ScanPoints {
 
   double first_bearing_ = 0.0;
   double step_ = 0.0;
-  double inverse_sin_grazing_ = 1.0;
+  double spacing_per_metre_ = 0.0;  // of neighbouring points, at the grazing angle
+  double reach_of_noise_ = 0.0;     // four sigma of the distance between two points (m)
   bool full_circle_ = false;
   bool closed_ = false;
   PointNoise noise_;

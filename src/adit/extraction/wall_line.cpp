@@ -7,6 +7,7 @@ namespace adit {
 namespace {
 
 constexpr double kGrazingCosine = 0.05;  // beams nearer to parallel say nothing about the line
+constexpr double kTrimSigmas = 1.5;
 
 struct NormalEquations {
   Matrix2d information = Matrix2d::Zero();
@@ -29,22 +30,43 @@ NormalEquations accumulate(const ScanPoints& points, Stretch s, const Line& line
   NormalEquations sum;
   const Vector2d normal = unit_vector(line.orientation);
   const Vector2d tangent = perpendicular(normal);
+  double aa = 0.0, ad = 0.0, dd = 0.0, ga = 0.0, gd = 0.0;
   for (std::size_t i = s.begin; i < s.end; ++i) {
     const Vector2d beam = points.beam(i);
     const double cosine = normal.dot(beam);
     // The range that the line predicts, not the noisy one: it keeps the fit unbiased.
-    const bool grazing = cosine < kGrazingCosine;
-    const double range = grazing ? points.range(i) : line.distance / cosine;
-    const double variance = points.noise().across(std::max(cosine * cosine, 1e-3), range * range);
+    const double range = cosine < kGrazingCosine ? points.range(i) : line.distance / cosine;
+    const double weight =
+        1.0 / points.noise().across(std::max(cosine * cosine, 1e-3), range * range);
     const double error = points.range(i) * cosine - line.distance;
-    if (error * error > gate * gate * variance) continue;
-    const Vector2d jacobian(range * tangent.dot(beam), -1.0);
-    sum.information.noalias() += jacobian * jacobian.transpose() / variance;
-    sum.gradient.noalias() += jacobian * (error / variance);
-    sum.chi_square += error * error / variance;
+    const double chi_square = error * error * weight;
+    if (chi_square > gate * gate) continue;
+    const double along = range * tangent.dot(beam);
+    aa += weight * along * along;
+    ad -= weight * along;
+    dd += weight;
+    ga += weight * along * error;
+    gd -= weight * error;
+    sum.chi_square += chi_square;
     ++sum.points;
   }
+  sum.information << aa, ad, ad, dd;
+  sum.gradient << ga, gd;
   return sum;
+}
+
+/// Without the points next to a cut: which side of it they belong to was decided by their own
+/// noise, so they would make the fit look better than it is.
+Stretch trimmed(const ScanPoints& points, Stretch s, const CutEnds& cuts, int min_points) {
+  const double reach2 = kTrimSigmas * kTrimSigmas * points.noise().beam_variance;
+  const auto within = [&](std::size_t i, std::size_t end) {
+    return (points.point(i) - points.point(end)).squaredNorm() < reach2;
+  };
+  const std::size_t quarter = (s.size() - static_cast<std::size_t>(min_points)) / 4;
+  Stretch kept = s;
+  while (cuts.begin && kept.begin - s.begin < quarter && within(kept.begin, s.begin)) ++kept.begin;
+  while (cuts.end && s.end - kept.end < quarter && within(kept.end - 1, s.end - 1)) --kept.end;
+  return kept;
 }
 
 }  // namespace
@@ -57,20 +79,15 @@ Vector2d meet(const Line& line, const Vector2d& beam, const Vector2d& fallback) 
 }
 
 std::optional<Line> fit_wall_line(const ScanPoints& points, Stretch s, int min_points,
-                                  double gate) {
+                                  const CutEnds& cuts, double gate) {
   if (static_cast<int>(s.size()) < min_points) return std::nullopt;
   Line line = start_line(points, s);
-  constexpr double kNoGate = 1e6;
-  NormalEquations sum;
-  for (const double limit : {kNoGate, gate}) {
-    sum = accumulate(points, s, line, limit);
-    const double determinant = sum.information.determinant();
-    if (sum.points < min_points || !(determinant > 0.0)) return std::nullopt;
-    const Vector2d step = -sum.information.inverse() * sum.gradient;
-    if (!step.allFinite() || std::abs(step.x()) > 0.5) return std::nullopt;
-    line.orientation = wrap_angle(line.orientation + step.x());
-    line.distance += step.y();
-  }
+  const NormalEquations sum = accumulate(points, trimmed(points, s, cuts, min_points), line, gate);
+  if (sum.points < min_points || !(sum.information.determinant() > 0.0)) return std::nullopt;
+  const Vector2d step = -sum.information.inverse() * sum.gradient;
+  if (!step.allFinite() || std::abs(step.x()) > 0.5) return std::nullopt;
+  line.orientation = wrap_angle(line.orientation + step.x());
+  line.distance += step.y();
   const double freedom = std::max(1.0, sum.points - 2.0);
   const double scatter = sum.chi_square / freedom;
   const double usual = 1.0 + 2.0 * std::sqrt(2.0 / freedom);

@@ -110,6 +110,14 @@ Matrix3d Localizer::floored(const Matrix3d& covariance) const {
          unit.asDiagonal();
 }
 
+/// What the plan errs around here. Scan after scan sees the same error, so it is no noise that the
+/// filter may average; it stands beside what the filter believes.
+Matrix3d Localizer::shared_map_error() const {
+  const double metres = settings_.estimation.map_sigma_m;
+  const double radians = metres / settings_.localizer.map_stretch_m;
+  return Vector3d(metres * metres, metres * metres, radians * radians).asDiagonal();
+}
+
 bool Localizer::is_believable() const {
   const LocalizerOptions& options = settings_.localizer;
   if (!fit_.converged || fit_.used < options.min_pairs) return false;
@@ -134,7 +142,7 @@ void Localizer::judge(double stamp) {
   estimate_ = Estimate{};
   estimate_.stamp = stamp;
   estimate_.pose = last_.pose;
-  estimate_.covariance = last_.covariance;
+  estimate_.covariance = last_.covariance + shared_map_error();
   estimate_.status = believed ? Status::ok : Status::lost;
   estimate_.dead_reckoned = !believed;
   estimate_.chi_square = fit_.chi_square;

@@ -22,9 +22,10 @@ struct LocalizerOptions {
   double start_sigma_m = 0.25;
   double start_sigma_rad = 0.07;
   double gyro_sigma_rad = 0.002;
-  double prior_floor_m = 0.05;
-  double prior_floor_rad = 0.01;
-  double gate_chi_square = 21.1;
+  double prior_floor_m = 0.02;
+  double prior_floor_rad = 0.004;
+  double gate_chi_square = 60.0;
+  double map_stretch_m = 2.0;
   int min_pairs = 2;
   double max_dropped_ratio = 0.5;
 
@@ -41,8 +42,13 @@ struct LocalizerOptions {
         "are seen again by the next");
     field("prior_floor_rad", self.prior_floor_rad, "the same for the heading (rad)");
     field("gate_chi_square", self.gate_chi_square,
-          "a fit farther than this from the predicted pose is refused; chi-square of three degrees "
-          "of freedom at 1e-4");
+          "a fit farther than this from the predicted pose is refused; far beyond chance (7.3 "
+          "sigma), "
+          "because wheels slip more than their noise says");
+    field(
+        "map_stretch_m", self.map_stretch_m,
+        "length of wall that shares one error of the plan (m): as far as that, the plan turns the "
+        "heading");
     field("min_pairs", self.min_pairs, "a fit of fewer pairs is refused");
     field("max_dropped_ratio", self.max_dropped_ratio,
           "a fit that had to drop a larger part of its pairs is refused");
@@ -106,6 +112,7 @@ class Localizer {
   void judge(double stamp);
   bool is_believable() const;
   Matrix3d floored(const Matrix3d& covariance) const;
+  Matrix3d shared_map_error() const;
 
   const LineMap& map_;
   LocalizerSettings settings_;

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "adit/geometry/segment.hpp"
+#include "adit/map/spatial_index.hpp"
 
 namespace adit {
 
@@ -16,7 +16,8 @@ struct LineMapOptions {
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
     field("snap_m", self.snap_m,
-          "end points nearer than this become one vertex, an end nearer than this to a wall becomes a "
+          "end points nearer than this become one vertex, an end nearer than this to a wall "
+          "becomes a "
           "T-junction (m); drawing accuracy of mine plans");
     field("merge_offset_m", self.merge_offset_m,
           "neighbouring pieces whose common vertex lies nearer than this to the joined line become "
@@ -66,16 +67,20 @@ class LineMap {
   }
   bool empty() const { return walls_.empty(); }
 
-  /// Appends to `found` the walls with a point within `radius` of `center`, each once, in an order
-  /// that depends on the map alone. Allocates only while `found` grows.
+  /// The smallest box around all walls; empty for an empty map.
+  const Box& bounds() const { return bounds_; }
+
+  /// Appends to `found` the walls with a point within `radius` of `center`, each once, in ascending
+  /// order. Allocates only while `found` grows.
   void near(const Vector2d& center, double radius, std::vector<int>& found) const;
 
  private:
-  // (private representation: packed index; the implementer chooses)
-  std::vector<Wall> walls_;
+  std::vector<Wall> walls_;  // along a Hilbert curve: near walls are near in memory
   std::vector<Vector2d> vertices_;
   std::vector<int> first_wall_at_;
   std::vector<int> walls_at_;
+  SegmentIndex index_;
+  Box bounds_;
 };
 
 }  // namespace adit

@@ -30,9 +30,9 @@ struct MatchingOptions {
   double map_angerr = 0.0349065850398866;  // 2 degrees
   double min_overlap = 0.5;
   double prior_sigmas = 4.0;
-  double min_poserr = 0.2;
+  double min_poserr = 0.4;
   double max_poserr = 3.0;
-  double min_angerr = 0.0174532925199433;  // 1 degree
+  double min_angerr = 0.0698131700797732;  // 4 degrees
   double max_angerr = 0.523598775598299;   // 30 degrees
   int max_candidates = 1500;
   int max_calls = 20000;

@@ -19,8 +19,8 @@ struct OdometryNoise {
   double translation_sigma_ratio = 0.10;
   double rotation_sigma_rad_per_m = 0.02;
   double rotation_sigma_ratio = 0.10;
-  double translation_floor_m = 0.01;
-  double rotation_floor_rad = 0.003;
+  double translation_floor_m = 0.003;
+  double rotation_floor_rad = 0.0015;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
