@@ -134,10 +134,14 @@ void Extractor::add_edge(std::size_t s, int arm) {
         0.1 + 4.0 * std::sqrt(points_.noise().beam_variance + points_.noise().roughness_variance);
     if (points_.range(neighbour) < expected.norm() + margin) return;
   }
+  const std::size_t beside = at_end ? s + 1 : s - 1;  // wraps below zero: no stretch
+  const bool is_cut = beside < stretches_.size() && piece_[beside] == piece_[s];
   const double half_step = 0.5 * std::abs(points_.beam_step());
   const Vector2d at = points_.beam(last);
   const Vector2d edge = at * std::cos(half_step) + step * std::sin(half_step) * perpendicular(at);
-  Corner corner = occluding_corner(line, arm, edge, half_step / std::sqrt(3.0));
+  // Where noise decided which point is the last, the edge may be a whole beam further on.
+  const double sigma = is_cut ? 2.0 * half_step : half_step / std::sqrt(3.0);
+  Corner corner = occluding_corner(line, arm, edge, sigma);
   corner.arms[static_cast<std::size_t>(arm)] = line_[s];
   features_.corners.push_back(corner);
 }

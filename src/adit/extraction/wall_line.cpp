@@ -6,8 +6,8 @@
 namespace adit {
 namespace {
 
-constexpr double kGrazingCosine = 0.05;  // beams nearer to parallel say nothing about the line
-constexpr double kTrimSigmas = 1.5;
+constexpr double kGrazingCosine = 0.05;   // beams nearer to parallel say nothing about the line
+constexpr double kAmbiguousPoints = 2.0;  // next to a cut
 
 struct NormalEquations {
   Matrix2d information = Matrix2d::Zero();
@@ -55,18 +55,17 @@ NormalEquations accumulate(const ScanPoints& points, Stretch s, const Line& line
   return sum;
 }
 
-/// Without the points next to a cut: which side of it they belong to was decided by their own
-/// noise, so they would make the fit look better than it is.
-Stretch trimmed(const ScanPoints& points, Stretch s, const CutEnds& cuts, int min_points) {
-  const double reach2 = kTrimSigmas * kTrimSigmas * points.noise().beam_variance;
-  const auto within = [&](std::size_t i, std::size_t end) {
-    return (points.point(i) - points.point(end)).squaredNorm() < reach2;
-  };
-  const std::size_t quarter = (s.size() - static_cast<std::size_t>(min_points)) / 4;
-  Stretch kept = s;
-  while (cuts.begin && kept.begin - s.begin < quarter && within(kept.begin, s.begin)) ++kept.begin;
-  while (cuts.end && s.end - kept.end < quarter && within(kept.end - 1, s.end - 1)) --kept.end;
-  return kept;
+/// The points next to a cut may belong to its other side, and their own noise decided: a few of
+/// them err together by one sigma. What that does to the line, to first order, as covariance.
+Matrix2d ambiguity(const ScanPoints& points, std::size_t end, const Line& line,
+                   const Matrix2d& covariance) {
+  const Vector2d normal = unit_vector(line.orientation);
+  const Vector2d point = points.point(end);
+  const double cosine = std::max(normal.dot(points.beam(end)), kGrazingCosine);
+  const double sigma = std::sqrt(points.noise().across(cosine * cosine, point.squaredNorm()));
+  const Vector2d jacobian(perpendicular(normal).dot(point), -1.0);
+  const Vector2d shift = covariance * jacobian * (kAmbiguousPoints / sigma);
+  return shift * shift.transpose();
 }
 
 }  // namespace
@@ -82,7 +81,7 @@ std::optional<Line> fit_wall_line(const ScanPoints& points, Stretch s, int min_p
                                   const CutEnds& cuts, double gate) {
   if (static_cast<int>(s.size()) < min_points) return std::nullopt;
   Line line = start_line(points, s);
-  const NormalEquations sum = accumulate(points, trimmed(points, s, cuts, min_points), line, gate);
+  const NormalEquations sum = accumulate(points, s, line, gate);
   if (sum.points < min_points || !(sum.information.determinant() > 0.0)) return std::nullopt;
   const Vector2d step = -sum.information.inverse() * sum.gradient;
   if (!step.allFinite() || std::abs(step.x()) > 0.5) return std::nullopt;
@@ -91,7 +90,10 @@ std::optional<Line> fit_wall_line(const ScanPoints& points, Stretch s, int min_p
   const double freedom = std::max(1.0, sum.points - 2.0);
   const double scatter = sum.chi_square / freedom;
   const double usual = 1.0 + 2.0 * std::sqrt(2.0 / freedom);
-  line.covariance = sum.information.inverse() * (scatter > usual ? scatter : 1.0);
+  const Matrix2d covariance = sum.information.inverse() * (scatter > usual ? scatter : 1.0);
+  line.covariance = covariance;
+  if (cuts.begin) line.covariance += ambiguity(points, s.begin, line, covariance);
+  if (cuts.end) line.covariance += ambiguity(points, s.end - 1, line, covariance);
   line.points = sum.points;
   line.begin = meet(line, points.beam(s.begin), points.point(s.begin));
   line.end = meet(line, points.beam(s.end - 1), points.point(s.end - 1));

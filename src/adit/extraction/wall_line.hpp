@@ -17,7 +17,7 @@ struct CutEnds {
 /// frame.
 ///
 /// A Gauss-Newton step on the ranges (Pfister et al. 2003 weigh likewise) from the orthogonal
-/// regression; points beyond `gate` sigmas and next to cuts are left out. The covariance follows
+/// regression; points beyond `gate` sigmas are left out. The covariance follows
 /// from the noise of the points and is scaled up where they scatter more than that. Absent where
 /// fewer than `min_points` points are left.
 std::optional<Line> fit_wall_line(const ScanPoints& points, Stretch stretch, int min_points,
