@@ -4,6 +4,9 @@
 
 namespace adit {
 
+/// Which moment of its sweep a scan's stamp names.
+enum class SweepMoment { start, middle, end };
+
 /// How a scanner measures; one sigma, SI units.
 struct ScannerModel {
   double range_sigma_m = 0.02;
@@ -11,6 +14,8 @@ struct ScannerModel {
   double bearing_sigma_rad = 0.0;
   double max_range_m = 80.0;
   double min_range_m = 0.05;
+  double sweep_s = 0.0;
+  SweepMoment stamp = SweepMoment::start;
 
   /// Standard deviation of one range along the beam: noise and rounding together (m).
   double beam_sigma_m() const {
@@ -24,6 +29,9 @@ struct ScannerModel {
     field("bearing_sigma_rad", self.bearing_sigma_rad, "noise of a beam's bearing (rad)");
     field("max_range_m", self.max_range_m, "a range at or over this is no return (m)");
     field("min_range_m", self.min_range_m, "a range below this is no return (m)");
+    field("sweep_s", self.sweep_s,
+          "time of one sweep (s); beam i is taken i/n of it after the first; 0 is all at once");
+    field("stamp", self.stamp, "the moment of the sweep that a scan's stamp names");
   }
 };
 

@@ -1,0 +1,200 @@
+#include "adit/config/configuration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "adit/config/fields.hpp"
+#include "adit/config/toml.hpp"
+#include "adit/io/atomic_file.hpp"
+#include "adit/io/text.hpp"
+
+namespace adit {
+namespace {
+
+/// How many single letters must change to make one word of the other (Levenshtein).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i);
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replace = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, replace});
+    }
+  }
+  return row.back();
+}
+
+/// The three names nearest to a word, nearest first.
+std::string nearest(std::string_view word, std::vector<std::string> names) {
+  word = word.substr(0, 64);
+  std::stable_sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
+    return edit_distance(word, a) < edit_distance(word, b);
+  });
+  std::string text;
+  for (std::size_t i = 0; i < names.size() && i < 3; ++i) text += (i > 0 ? ", " : "") + names[i];
+  return text;
+}
+
+std::string unknown_table(std::string_view table) {
+  std::vector<std::string> names;
+  for (const ConfigTable& known : config_tables()) names.push_back(known.name);
+  return "unknown table " + in_quotes(table) + "; nearest known: " + nearest(table, names);
+}
+
+std::string unknown_key(const TomlEntry& entry, const std::vector<ConfigField>& fields) {
+  std::vector<std::string> names;
+  for (const ConfigField& field : fields) {
+    if (entry.table.empty()) names.push_back("[" + field.table + "] " + field.key);
+    if (field.table == entry.table) names.push_back(field.key);
+  }
+  const std::string where = entry.table.empty() ? " outside a table" : " in [" + entry.table + "]";
+  return "unknown key " + in_quotes(entry.key) + where +
+         "; nearest known: " + nearest(entry.key, names);
+}
+
+std::optional<double> number_of(const TomlValue& value) {
+  if (const auto* integer = std::get_if<std::int64_t>(&value)) return static_cast<double>(*integer);
+  if (const auto* real = std::get_if<double>(&value)) return *real;
+  return std::nullopt;
+}
+
+/// Sets the field, or says what was expected.
+std::optional<std::string> set(const ConfigField& field, const TomlValue& value) {
+  if (auto* const* target = std::get_if<double*>(&field.target)) {
+    const auto number = number_of(value);
+    if (!number || !std::isfinite(*number) || *number < 0.0) return "a finite number, 0 or more";
+    **target = *number;
+    return std::nullopt;
+  }
+  if (auto* const* target = std::get_if<int*>(&field.target)) {
+    const auto* number = std::get_if<std::int64_t>(&value);
+    if (number == nullptr || *number < 0 || *number > std::numeric_limits<int>::max())
+      return "a whole number, 0 or more";
+    **target = static_cast<int>(*number);
+    return std::nullopt;
+  }
+  if (auto* const* target = std::get_if<bool*>(&field.target)) {
+    const auto* flag = std::get_if<bool>(&value);
+    if (flag == nullptr) return "true or false";
+    **target = *flag;
+    return std::nullopt;
+  }
+  const auto& words = std::get<WordField>(field.target);
+  const auto* word = std::get_if<std::string>(&value);
+  if (word != nullptr &&
+      std::find(words.words.begin(), words.words.end(), *word) != words.words.end()) {
+    words.set(*word);
+    return std::nullopt;
+  }
+  std::string expected;
+  for (const std::string& known : words.words)
+    expected += (expected.empty() ? "\"" : " or \"") + known + "\"";
+  return expected;
+}
+
+/// What no single key shows to be wrong.
+Result<void> check_together(const Configuration& c, const std::vector<TomlEntry>& entries,
+                            const std::string& file) {
+  if (c.localizer.scanner.max_range_m > c.localizer.scanner.min_range_m) return {};
+  const auto is_bound = [](const TomlEntry& e) {
+    return e.table == "scanner" && (e.key == "max_range_m" || e.key == "min_range_m");
+  };
+  const auto at = std::find_if(entries.rbegin(), entries.rend(), is_bound);
+  return fail("expected scanner.max_range_m above scanner.min_range_m", file,
+              at == entries.rend() ? 0 : at->line);
+}
+
+bool is_chosen(const ConfigField& field, const std::set<std::string>& only) {
+  return only.empty() || only.contains(field.table) || only.contains(field.name());
+}
+
+}  // namespace
+
+Result<LoadedConfiguration> parse_configuration(std::string_view text, const std::string& file,
+                                                const Configuration& base) {
+  if (const auto checked = check_text(text, file); !text.empty() && !checked)
+    return tl::unexpected(checked.error());
+  LoadedConfiguration out{base, {}};
+  const auto entries = parse_toml(text, file);
+  if (!entries) return tl::unexpected(entries.error());
+  const std::vector<ConfigField> fields = fields_of(out.values);
+  const std::vector<ConfigTable> tables = config_tables();
+  for (const TomlEntry& entry : *entries) {
+    const bool known_table = std::any_of(
+        tables.begin(), tables.end(), [&](const ConfigTable& t) { return t.name == entry.table; });
+    if (!known_table && !entry.table.empty())
+      return fail(unknown_table(entry.table), file, entry.line);
+    if (known_table && entry.key.empty() && std::holds_alternative<std::monostate>(entry.value))
+      continue;
+    const auto field = std::find_if(fields.begin(), fields.end(), [&](const ConfigField& f) {
+      return f.table == entry.table && f.key == entry.key;
+    });
+    if (field == fields.end()) return fail(unknown_key(entry, fields), file, entry.line);
+    if (const auto expected = set(*field, entry.value))
+      return fail(field->name() + ": expected " + *expected, file, entry.line);
+    out.given.insert(field->name());
+  }
+  if (const auto checked = check_together(out.values, *entries, file); !checked)
+    return tl::unexpected(checked.error());
+  return out;
+}
+
+Result<LoadedConfiguration> read_configuration(const std::string& path, const Configuration& base) {
+  const auto text = read_text(path);
+  if (!text) return tl::unexpected(text.error());
+  return parse_configuration(*text, path, base);
+}
+
+std::string format_configuration(const Configuration& configuration,
+                                 const std::set<std::string>& only) {
+  Configuration copy = configuration;
+  const std::vector<ConfigField> fields = fields_of(copy);
+  std::string text;
+  for (const ConfigTable& table : config_tables()) {
+    std::string body;
+    for (const ConfigField& field : fields) {
+      if (field.table != table.name || !is_chosen(field, only)) continue;
+      body += "# " + field.documentation + "\n" + field.key + " = " + value_text(field) + "\n";
+    }
+    if (body.empty()) continue;
+    if (!text.empty()) text += "\n";
+    text += "# " + table.documentation + "\n[" + table.name + "]\n" + body;
+  }
+  return text;
+}
+
+Result<void> write_configuration(const Configuration& configuration, const std::string& path,
+                                 const std::set<std::string>& only) {
+  return write_file(path, format_configuration(configuration, only));
+}
+
+std::string configuration_reference() {
+  Configuration defaults;
+  const std::vector<ConfigField> fields = fields_of(defaults);
+  std::string text =
+      "# Configuration\n\nOne TOML file, given with `--config`. Every key may be left out: the "
+      "default holds, or what the log\nitself tells. Unknown keys are errors. SI units and "
+      "radians; "
+      "sigmas are one sigma.\n";
+  for (const ConfigTable& table : config_tables()) {
+    text += "\n## [" + table.name + "]\n\n" + table.documentation +
+            "\n\n| key | default | meaning |\n|---|---|---|\n";
+    for (const ConfigField& field : fields) {
+      if (field.table != table.name) continue;
+      text += "| `" + field.key + "` | `" + value_text(field) + "` | " + field.documentation;
+      if (const auto* words = std::get_if<WordField>(&field.target)) {
+        text += ":";
+        for (const std::string& word : words->words) text += " `" + word + "`";
+      }
+      text += " |\n";
+    }
+  }
+  return text;
+}
+
+}  // namespace adit

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "adit/geometry/result.hpp"
+#include "adit/localizer/localizer.hpp"
+#include "adit/map/line_map.hpp"
+
+namespace adit {
+
+/// [map] sigma_m: how far the plan's walls stand from the real ones, a field of the estimation.
+struct MapAccuracy {
+  EstimationOptions& estimation;
+
+  template <class Self, class Field>
+  static void visit(Self& self, Field&& field) {
+    field("sigma_m", self.estimation.map_sigma_m,
+          "how far a wall may be from its line in the plan, one sigma (m)");
+  }
+};
+
+/// [matching] consistency: which definition of a consistent set the matching takes.
+struct ConsistencyChoice {
+  MatchingOptions& matching;
+
+  template <class Self, class Field>
+  static void visit(Self& self, Field&& field) {
+    field("consistency", self.matching.consistency, "when a set of pairs is consistent");
+  }
+};
+
+/// Everything that a configuration file can say. To extend it by a stage, add the stage's Options
+/// and one line to `visit`; an enumeration among its fields also needs its words in enum_names.hpp.
+struct Configuration {
+  LocalizerSettings localizer;
+  LineMapOptions map;
+
+  /// Names each table: `table(name, options, documentation)`, where options has a `visit` of its
+  /// own. Two parts may share a table.
+  template <class Table>
+  static void visit(Configuration& self, Table&& table) {
+    MapAccuracy accuracy{self.localizer.estimation};
+    ConsistencyChoice consistency{self.localizer.matching};
+    table("scanner", self.localizer.scanner, "how the scanner measures");
+    table("odometry", self.localizer.odometry, "how wrong dead reckoning may be");
+    table("map", accuracy, "");
+    table("map", self.map, "the plan and its cleaning");
+    table("prediction", self.localizer.prediction, "which features the plan promises");
+    table("extraction", self.localizer.extraction, "which features a scan shows");
+    table("matching", consistency, "");
+    table("matching", self.localizer.matching, "which of them are the same");
+    table("estimation", self.localizer.estimation, "the pose that follows");
+    table("localizer", self.localizer.localizer, "which estimates are believed");
+  }
+};
+
+/// A configuration and the keys ("table.key") that its file gave: what it did not give is for the
+/// log to say.
+struct LoadedConfiguration {
+  Configuration values;
+  std::set<std::string> given;
+
+  bool has(const std::string& key) const { return given.contains(key); }
+};
+
+/// Reads a configuration in TOML over `base`. Errors name the line and what was expected: no
+/// TOML, an unknown table or key (with the nearest known ones), a wrong type or word, a number that
+/// is not finite or is negative, a maximum range that is not above the minimum.
+Result<LoadedConfiguration> read_configuration(const std::string& path,
+                                               const Configuration& base = {});
+
+/// The same from text, which may be empty; `file` is the name in errors.
+Result<LoadedConfiguration> parse_configuration(std::string_view text, const std::string& file = {},
+                                                const Configuration& base = {});
+
+/// The configuration as TOML, each key under its documentation. `only` names the tables ("scanner")
+/// and keys ("scanner.sweep_s") to write; empty for all.
+std::string format_configuration(const Configuration& configuration,
+                                 const std::set<std::string>& only = {});
+
+/// Writes `format_configuration` to a file, whole or not at all.
+Result<void> write_configuration(const Configuration& configuration, const std::string& path,
+                                 const std::set<std::string>& only = {});
+
+/// All tables, keys, defaults and meanings as a page of Markdown.
+std::string configuration_reference();
+
+}  // namespace adit

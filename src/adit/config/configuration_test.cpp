@@ -1,0 +1,188 @@
+#include "adit/config/configuration.hpp"
+
+#include <gtest/gtest.h>
+
+#include "adit/config/fields.hpp"
+#include "support/test_files.hpp"
+
+namespace adit {
+namespace {
+
+LoadedConfiguration loaded(std::string_view text) {
+  auto read = parse_configuration(text, "c.toml");
+  EXPECT_TRUE(read) << to_string(read.error());
+  return read ? *read : LoadedConfiguration{};
+}
+
+std::string error_of(std::string_view text) {
+  const auto read = parse_configuration(text, "c.toml");
+  return read ? "no error" : to_string(read.error());
+}
+
+TEST(Configuration, KeysOfTheInterfaceReachTheirStages) {
+  const LoadedConfiguration read = loaded(R"(
+    [scanner]
+    range_sigma_m = 0.1
+    quantisation_m = 0.2
+    bearing_sigma_rad = 0.001
+    max_range_m = 50
+    sweep_s = 0.1
+    stamp = "middle"
+    [odometry]
+    translation_sigma_ratio = 0.05
+    rotation_sigma_rad_per_m = 0.03
+    rotation_sigma_ratio = 0.04
+    [map]
+    sigma_m = 0.07
+    snap_m = 0.02
+  )");
+  const LocalizerSettings& settings = read.values.localizer;
+  EXPECT_EQ(settings.scanner.range_sigma_m, 0.1);
+  EXPECT_EQ(settings.scanner.quantisation_m, 0.2);
+  EXPECT_EQ(settings.scanner.bearing_sigma_rad, 0.001);
+  EXPECT_EQ(settings.scanner.max_range_m, 50.0);
+  EXPECT_EQ(settings.scanner.sweep_s, 0.1);
+  EXPECT_EQ(settings.scanner.stamp, SweepMoment::middle);
+  EXPECT_EQ(settings.odometry.translation_sigma_ratio, 0.05);
+  EXPECT_EQ(settings.odometry.rotation_sigma_rad_per_m, 0.03);
+  EXPECT_EQ(settings.odometry.rotation_sigma_ratio, 0.04);
+  EXPECT_EQ(settings.estimation.map_sigma_m, 0.07);
+  EXPECT_EQ(read.values.map.snap_m, 0.02);
+  EXPECT_EQ(read.given.size(), 11u);
+  EXPECT_TRUE(read.has("scanner.max_range_m"));
+  EXPECT_TRUE(read.has("map.sigma_m"));
+  EXPECT_FALSE(read.has("scanner.min_range_m"));
+}
+
+TEST(Configuration, EveryStageHasATable) {
+  const LoadedConfiguration read = loaded(
+      "matching.consistency = \"paper\"\nestimation.weighting = \"points\"\n"
+      "estimation.max_iterations = 7\n[prediction]\nmin_line_m = 0.6\n[extraction]\n"
+      "min_line_m = 0.7\n[localizer]\nmin_pairs = 4\n");
+  EXPECT_EQ(read.values.localizer.matching.consistency, Consistency::paper);
+  EXPECT_EQ(read.values.localizer.estimation.weighting, Weighting::points);
+  EXPECT_EQ(read.values.localizer.estimation.max_iterations, 7);
+  EXPECT_EQ(read.values.localizer.prediction.min_line_m, 0.6);
+  EXPECT_EQ(read.values.localizer.extraction.min_line_m, 0.7);
+  EXPECT_EQ(read.values.localizer.localizer.min_pairs, 4);
+}
+
+TEST(Configuration, NothingGivenIsTheDefault) {
+  for (const char* text : {"", "# nothing\n", "[scanner]\n", "\xef\xbb\xbf[scanner]\r\n"}) {
+    const LoadedConfiguration read = loaded(text);
+    EXPECT_TRUE(read.given.empty());
+    EXPECT_EQ(format_configuration(read.values), format_configuration(Configuration{}));
+  }
+}
+
+TEST(Configuration, UnknownNamesAreErrorsWithTheNearestKnown) {
+  EXPECT_EQ(error_of("[scanner]\nrange_sigma_m = 1\nrange_sigma = 0.1\n"),
+            "c.toml:3: unknown key \"range_sigma\" in [scanner]; nearest known: range_sigma_m, "
+            "max_range_m, min_range_m");
+  EXPECT_EQ(error_of("\n\n[scaner]\nrange_sigma_m = 1\n"),
+            "c.toml:3: unknown table \"scaner\"; nearest known: scanner, map, localizer");
+  EXPECT_NE(error_of("angerr = 0.1\n").find("c.toml:1: unknown key \"angerr\" outside a table"),
+            std::string::npos);
+  EXPECT_NE(error_of("scanner = 1\n").find("c.toml:1: unknown key \"scanner\" outside a table"),
+            std::string::npos);
+}
+
+TEST(Configuration, TheFirstErrorOfTheFileIsReported) {
+  EXPECT_EQ(error_of("[scanner]\nquantisation_m = -1\n[odometry]\nx = 1\n").substr(0, 9),
+            "c.toml:2:");
+  EXPECT_EQ(error_of("[odometry]\nx = 1\n[scanner]\nquantisation_m = -1\n").substr(0, 9),
+            "c.toml:2:");
+}
+
+TEST(Configuration, WrongValuesSayWhatWasExpected) {
+  const std::string number = "expected a finite number, 0 or more";
+  for (const char* value :
+       {"-0.1", "nan", "inf", "-inf", "\"1\"", "true", "[1]", "{a = 1}", "1979-05-27"})
+    EXPECT_EQ(error_of(std::string("[scanner]\nrange_sigma_m = ") + value + "\n"),
+              "c.toml:2: scanner.range_sigma_m: " + number);
+  const std::string whole = "expected a whole number, 0 or more";
+  for (const char* value : {"-1", "1.0", "\"1\"", "3000000000"})
+    EXPECT_EQ(error_of(std::string("[estimation]\nmax_iterations = ") + value + "\n"),
+              "c.toml:2: estimation.max_iterations: " + whole);
+  for (const char* value : {"\"Start\"", "\"\"", "0", "true"})
+    EXPECT_EQ(error_of(std::string("[scanner]\nstamp = ") + value + "\n"),
+              "c.toml:2: scanner.stamp: expected \"start\" or \"middle\" or \"end\"");
+}
+
+TEST(Configuration, RangesMustLeaveRoom) {
+  EXPECT_EQ(error_of("[scanner]\nmin_range_m = 5\nmax_range_m = 5\n"),
+            "c.toml:3: expected scanner.max_range_m above scanner.min_range_m");
+  EXPECT_EQ(error_of("[scanner]\nmax_range_m = 0\n"),
+            "c.toml:2: expected scanner.max_range_m above scanner.min_range_m");
+}
+
+TEST(Configuration, WhatIsNoTomlNamesTheLine) {
+  EXPECT_EQ(error_of("[scanner]\nrange_sigma_m 0.1\n").substr(0, 24), "c.toml:2: expected TOML:");
+  EXPECT_EQ(error_of("[scanner]\nsweep_s = 1\nsweep_s = 2\n").substr(0, 24),
+            "c.toml:3: expected TOML:");
+  EXPECT_EQ(error_of(std::string("[scanner]\n\0\n", 12)),
+            "c.toml:2: expected a text file (UTF-8), found binary data");
+  EXPECT_NE(error_of(std::string(100000, '[')), "no error");
+}
+
+TEST(Configuration, WrittenFilesReadBack) {
+  Configuration configuration;
+  configuration.localizer.scanner.range_sigma_m = 1.0 / 3.0;
+  configuration.localizer.scanner.max_range_m = 1e-7 + 1e3;
+  configuration.localizer.scanner.min_range_m = 1e-7;
+  configuration.localizer.scanner.stamp = SweepMoment::end;
+  configuration.localizer.matching.consistency = Consistency::paper;
+  configuration.localizer.estimation.map_sigma_m = 0.25;
+  configuration.localizer.estimation.max_iterations = 3;
+  const test::ScratchFolder folder;
+  ASSERT_TRUE(write_configuration(configuration, folder.path("c.toml")));
+  const auto read = read_configuration(folder.path("c.toml"));
+  ASSERT_TRUE(read) << to_string(read.error());
+  EXPECT_EQ(format_configuration(read->values), format_configuration(configuration));
+  EXPECT_EQ(read->values.localizer.scanner.range_sigma_m, 1.0 / 3.0);
+  EXPECT_EQ(read->values.localizer.scanner.stamp, SweepMoment::end);
+  Configuration defaults;
+  EXPECT_EQ(read->given.size(), fields_of(defaults).size());
+}
+
+TEST(Configuration, WritesWhatIsAskedFor) {
+  Configuration configuration;
+  configuration.localizer.scanner.max_range_m = 50.0;
+  const std::string text =
+      format_configuration(configuration, {"scanner.max_range_m", "map.sigma_m"});
+  EXPECT_NE(
+      text.find("[scanner]\n# a range at or over this is no return (m)\nmax_range_m = 50.0\n"),
+      std::string::npos)
+      << text;
+  const LoadedConfiguration read = loaded(text);
+  EXPECT_EQ(read.given, (std::set<std::string>{"scanner.max_range_m", "map.sigma_m"}));
+  for (const std::string& key : loaded(format_configuration(configuration, {"scanner"})).given)
+    EXPECT_EQ(key.substr(0, 8), "scanner.");
+}
+
+TEST(Configuration, EveryKeyIsDocumentedOnceAndInTheReference) {
+  Configuration defaults;
+  const std::string page = configuration_reference();
+  std::set<std::string> names;
+  for (const ConfigField& field : fields_of(defaults)) {
+    EXPECT_TRUE(names.insert(field.name()).second) << field.name() << " stands twice";
+    EXPECT_FALSE(field.documentation.empty()) << field.name();
+    EXPECT_NE(page.find("| `" + field.key + "` | `" + value_text(field) + "` | "),
+              std::string::npos)
+        << field.name();
+  }
+  for (const ConfigTable& table : config_tables())
+    EXPECT_NE(page.find("## [" + table.name + "]\n\n" + table.documentation), std::string::npos);
+}
+
+TEST(Configuration, FilesThatCannotBeReadAreErrors) {
+  const test::ScratchFolder folder;
+  const auto absent = read_configuration(folder.path("none.toml"));
+  ASSERT_FALSE(absent);
+  EXPECT_EQ(to_string(absent.error()),
+            folder.path("none.toml") + ": cannot open: No such file or directory");
+  EXPECT_TRUE(read_configuration(folder.write("empty.toml", "")));
+}
+
+}  // namespace
+}  // namespace adit

@@ -1,0 +1,13 @@
+# Fails unless what COMMAND ARGUMENTS prints is what stands in PAGE.
+separate_arguments(arguments UNIX_COMMAND "${ARGUMENTS}")
+execute_process(COMMAND ${COMMAND} ${arguments} OUTPUT_VARIABLE printed RESULT_VARIABLE status)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "${COMMAND} ${ARGUMENTS}: exit status ${status}")
+endif()
+set(page "")
+if(EXISTS ${PAGE})
+  file(READ ${PAGE} page)
+endif()
+if(NOT page STREQUAL printed)
+  message(FATAL_ERROR "${PAGE} is out of date; write it anew:\n  ${COMMAND} ${ARGUMENTS} > ${PAGE}")
+endif()
