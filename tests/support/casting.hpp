@@ -10,15 +10,17 @@
 
 #include "adit/map/line_map.hpp"
 
+// Ray casting by definition: the oracle for everything that says what a position sees.
 namespace adit::testing {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 inline double bearing_of(const Vector2d& v) { return std::atan2(v.y(), v.x()); }
 
+/// The map with the default cleaning.
 inline LineMap map_of(const std::vector<Segment>& segments) { return LineMap::build(segments); }
 
-// Cleaning that depends as little as possible on how the world is turned.
+/// The map with cleaning that depends as little as possible on how the world is turned.
 inline LineMap barely_cleaned(const std::vector<Segment>& segments) {
   LineMapOptions options;
   options.snap_m = 1e-9;
@@ -26,6 +28,7 @@ inline LineMap barely_cleaned(const std::vector<Segment>& segments) {
   return LineMap::build(segments, options);
 }
 
+/// Whether the wall's line passes through the observer: such a wall subtends nothing.
 inline bool is_edge_on(const Segment& wall, const Vector2d& observer) {
   return std::abs(cross(wall.a - observer, wall.b - observer)) <= 1e-9 * wall.length();
 }
@@ -42,6 +45,7 @@ inline double cast_at(const Segment& wall, const Vector2d& observer, const Vecto
   return hit ? range : kInfinity;
 }
 
+/// Range to the nearest wall along a bearing (rad, map axes), or infinity beyond the maximum range.
 inline double cast(const LineMap& map, const Vector2d& observer, double bearing, double max_range) {
   const Vector2d direction = unit_vector(bearing);
   double nearest = kInfinity;
@@ -51,6 +55,8 @@ inline double cast(const LineMap& map, const Vector2d& observer, double bearing,
   return nearest <= max_range ? nearest : kInfinity;
 }
 
+/// Equal up to a tolerance, absolute below one metre and relative above; infinities only to each
+/// other.
 inline bool agree(double a, double b, double tolerance) {
   if (std::isinf(a) || std::isinf(b)) return a == b;
   return std::abs(a - b) <= tolerance * (1.0 + std::abs(b));
@@ -78,7 +84,8 @@ inline ::testing::AssertionResult is_right(double range, const LineMap& map,
          << before << ", " << after << " beside it)";
 }
 
-struct Scene {
+/// A map and where it is seen from.
+struct Sight {
   LineMap map;
   Vector2d observer = Vector2d::Zero();
   double max_range = 0.0;

@@ -103,8 +103,9 @@ bool Extractor::add_corner(std::size_t s, std::size_t next, const ExtractionOpti
   if (!corner) return false;
   // The lines must really reach the vertex: a step in the wall is no corner of both.
   const double spacing = std::abs(points_.beam_step()) * corner->position.norm();
-  const double reach = 3.0 * std::sqrt(corner->covariance.trace()) + 3.0 * spacing +
-                       2.0 * std::sqrt(points_.noise().beam_variance);
+  const double shorter = std::min(before.length(), after.length());
+  const double uncertain = std::min(3.0 * std::sqrt(corner->covariance.trace()), 0.5 * shorter);
+  const double reach = uncertain + 3.0 * spacing + 2.0 * std::sqrt(points_.noise().beam_variance);
   if ((corner->position - before.end).norm() > reach) return false;
   if ((corner->position - after.begin).norm() > reach) return false;
   corner->arms = {line_[s], line_[next]};

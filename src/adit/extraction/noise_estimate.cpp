@@ -10,7 +10,7 @@ namespace {
 constexpr double kAssumedSigma = 0.03;   // only to find breakpoints
 constexpr double kGrazing = 0.15;        // rad
 constexpr std::size_t kShortWindow = 8;  // points
-constexpr double kLongWindow = 2.0;      // m
+constexpr double kLongWindow = 4.0;      // m
 constexpr std::size_t kLongWindowPoints = 15;
 constexpr std::size_t kLeastWindows = 6;
 constexpr double kQuantile = 0.3;
@@ -83,7 +83,7 @@ std::optional<ScatterEstimate> ScatterEstimator::estimate() const {
   for (const LongWindow& w : long_windows_) {
     excess.push_back(w.across_variance - variance * w.cos2);
   }
-  const double rough = quantile(std::move(excess), kQuantile);
+  const double rough = quantile(std::move(excess), 0.5);
   if (rough > 0.25 * variance) result.roughness_m = std::sqrt(rough);
   return result;
 }

@@ -3,6 +3,11 @@
 #include <algorithm>
 
 namespace adit {
+namespace {
+
+constexpr int kMostMissingBeams = 5;  // a longer gap is an opening, not drop-outs
+
+}  // namespace
 
 double ScanPoints::chi_square(std::size_t begin, std::size_t end) const {
   const Moments m = moments(begin, end);
@@ -92,6 +97,7 @@ void ScanPoints::collect(const LaserScan& scan, const ScannerModel& scanner) {
 bool ScanPoints::joined(std::size_t i, std::size_t j) const {
   int beams = beam_[j] - beam_[i];
   if (beams <= 0) beams += beam_count();
+  if (beams > kMostMissingBeams + 1) return false;
   const double nearer = std::min(range_[i], range_[j]);
   const double limit = nearer * spacing_per_metre_ * beams + reach_of_noise_;
   const double dx = x_[j] - x_[i];

@@ -8,9 +8,12 @@
 #include <vector>
 
 #include "adit/prediction/prediction.hpp"
+#include "support/casting.hpp"
 
 namespace adit {
 namespace {
+
+using testing::barely_cleaned;
 
 /// Rectangular pillars and loose walls at random places.
 std::vector<Segment> random_world(std::mt19937_64& random) {
@@ -32,13 +35,6 @@ std::vector<Segment> random_world(std::mt19937_64& random) {
     segments.push_back({a, a + Vector2d(size(random), size(random))});
   }
   return segments;
-}
-
-LineMap barely_cleaned(const std::vector<Segment>& segments) {
-  LineMapOptions options;
-  options.snap_m = 1e-9;
-  options.merge_offset_m = 1e-9;
-  return LineMap::build(segments, options);
 }
 
 struct Hit {

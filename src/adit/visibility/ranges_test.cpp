@@ -15,7 +15,7 @@ using testing::grid_segments;
 using testing::is_right;
 using testing::kInfinity;
 using testing::map_of;
-using testing::Scene;
+using testing::Sight;
 
 struct Fan {
   double first;
@@ -32,19 +32,19 @@ TEST_P(VisibilityRanges, LikeCastingBeamByBeam) {
   std::vector<double> ranges(fan.beams);
   std::vector<int> walls(fan.beams);
   for (int world = 0; world < 20 && !HasFailure(); ++world) {
-    Scene scene;
-    scene.map = map_of(grid_segments(random, 12, 8));
-    scene.observer = {4.1, 3.7};
-    scene.max_range = 6.0;
-    visibility.sweep(scene.map, scene.observer, scene.max_range);
+    Sight sight;
+    sight.map = map_of(grid_segments(random, 12, 8));
+    sight.observer = {4.1, 3.7};
+    sight.max_range = 6.0;
+    visibility.sweep(sight.map, sight.observer, sight.max_range);
     visibility.ranges(fan.first, fan.step, ranges, walls);
     for (std::size_t i = 0; i < fan.beams; ++i) {
       const double bearing = fan.first + static_cast<double>(i) * fan.step;
-      EXPECT_TRUE(is_right(ranges[i], scene.map, scene.observer, bearing, scene.max_range));
+      EXPECT_TRUE(is_right(ranges[i], sight.map, sight.observer, bearing, sight.max_range));
       ASSERT_EQ(walls[i] < 0, std::isinf(ranges[i]));
       if (walls[i] < 0) continue;
-      const Wall& wall = scene.map.walls()[static_cast<std::size_t>(walls[i])];
-      EXPECT_LE(distance(wall.segment, scene.observer + ranges[i] * unit_vector(bearing)), 1e-9);
+      const Wall& wall = sight.map.walls()[static_cast<std::size_t>(walls[i])];
+      EXPECT_LE(distance(wall.segment, sight.observer + ranges[i] * unit_vector(bearing)), 1e-9);
     }
   }
 }

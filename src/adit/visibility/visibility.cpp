@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "adit/visibility/bearing_key.hpp"
 
@@ -20,22 +19,18 @@ double edge_on_distance(const Vector2d& observer) {
   return std::max(1e-9, 4.0 * kEpsilon * observer.cwiseAbs().maxCoeff());
 }
 
-/// The wall counter-clockwise around the observer; nothing where it is seen edge-on.
-std::optional<SweptWall> oriented(const Wall& wall, int index, const Vector2d& observer,
-                                  double edge_on) {
+/// Lays the wall counter-clockwise around the observer; false when it is seen edge-on.
+bool orient(const Wall& wall, const Vector2d& observer, double edge_on, SweptWall& out) {
   const Vector2d a = wall.segment.a - observer;
   const Vector2d b = wall.segment.b - observer;
   const double turn = cross(a, b);
-  if (!(turn * turn > edge_on * edge_on * (b - a).squaredNorm())) return std::nullopt;
+  if (!(turn * turn > edge_on * edge_on * (b - a).squaredNorm())) return false;
   const bool forward = turn > 0.0;
-  const Vector2d* const ends[] = {&a, &b};
-  SweptWall swept;
-  swept.wall = index;
-  swept.begin = *ends[forward ? 0 : 1];
-  swept.end = *ends[forward ? 1 : 0];
-  swept.begin_vertex = forward ? wall.vertex_a : wall.vertex_b;
-  swept.end_vertex = forward ? wall.vertex_b : wall.vertex_a;
-  return swept;
+  out.begin = forward ? a : b;
+  out.end = forward ? b : a;
+  out.begin_vertex = forward ? wall.vertex_a : wall.vertex_b;
+  out.end_vertex = forward ? wall.vertex_b : wall.vertex_a;
+  return true;
 }
 
 void set_inverse_range(SweptWall& wall) {
@@ -166,18 +161,17 @@ void Visibility::stage_ring(const LineMap& map, const Vector2d& observer, Ring r
                             double max_range) {
   const double edge_on = edge_on_distance(observer);
   const bool check_hidden = !envelope_.pieces().empty();
+  SweptWall wall;
   for (const int index : near_) {
-    std::optional<SweptWall> wall =
-        oriented(map.walls()[static_cast<std::size_t>(index)], index, observer, edge_on);
-    if (!wall) continue;
-    const double squared = squared_distance(*wall);
+    wall.wall = index;
+    if (!orient(map.walls()[static_cast<std::size_t>(index)], observer, edge_on, wall)) continue;
+    const double squared = squared_distance(wall);
     const bool in_ring =
         squared > ring.inner * std::abs(ring.inner) && squared <= ring.outer * ring.outer;
-    if (!in_ring || !set_keys(*wall)) continue;
-    if (check_hidden && envelope_.hides(*wall, squared)) continue;
-    set_inverse_range(*wall);
-    if (!clip(*wall, max_range) || !set_keys(*wall)) continue;
-    envelope_.stage(*wall);
+    if (!in_ring || !set_keys(wall)) continue;
+    if (check_hidden && envelope_.hides(wall, squared)) continue;
+    set_inverse_range(wall);
+    if (clip(wall, max_range) && set_keys(wall)) envelope_.stage(wall);
   }
 }
 

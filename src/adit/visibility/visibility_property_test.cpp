@@ -15,27 +15,27 @@ using testing::barely_cleaned;
 using testing::grid_segments;
 using testing::is_right;
 using testing::map_of;
-using testing::Scene;
+using testing::Sight;
 
 RC_GTEST_PROP(VisibilityLaw, AnyGridWorldIsSeenAsCast, ()) {
   const auto coordinates =
       *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 6)).as("x1 y1 x2 y2 ...");
-  Scene scene;
+  Sight sight;
   std::vector<Segment> segments;
   for (std::size_t i = 0; i + 3 < coordinates.size(); i += 4) {
     segments.push_back({Vector2d(coordinates[i], coordinates[i + 1]),
                         Vector2d(coordinates[i + 2], coordinates[i + 3])});
   }
-  scene.map = map_of(segments);
-  scene.observer = 0.5 * Vector2d(*rc::gen::inRange(0, 12), *rc::gen::inRange(0, 12));
-  scene.max_range = *rc::gen::element(1.0, 3.0, 50.0);
+  sight.map = map_of(segments);
+  sight.observer = 0.5 * Vector2d(*rc::gen::inRange(0, 12), *rc::gen::inRange(0, 12));
+  sight.max_range = *rc::gen::element(1.0, 3.0, 50.0);
   Visibility visibility;
-  visibility.sweep(scene.map, scene.observer, scene.max_range);
+  visibility.sweep(sight.map, sight.observer, sight.max_range);
   for (int i = 0; i < 100; ++i) {
     const double bearing = -kPi + 0.0628 * i;
     double range = 0.0;
     visibility.ranges(bearing, 1.0, {&range, 1});
-    RC_ASSERT(is_right(range, scene.map, scene.observer, bearing, scene.max_range));
+    RC_ASSERT(is_right(range, sight.map, sight.observer, bearing, sight.max_range));
   }
 }
 

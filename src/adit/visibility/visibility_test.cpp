@@ -18,35 +18,35 @@ using testing::grid_segments;
 using testing::is_right;
 using testing::kInfinity;
 using testing::map_of;
-using testing::Scene;
+using testing::Sight;
 
-void expect_boundary(const Scene& scene, const VisibleInterval& interval, bool is_begin) {
-  const Wall& wall = scene.map.walls()[static_cast<std::size_t>(interval.wall)];
+void expect_boundary(const Sight& sight, const VisibleInterval& interval, bool is_begin) {
+  const Wall& wall = sight.map.walls()[static_cast<std::size_t>(interval.wall)];
   const Vector2d point = is_begin ? interval.begin : interval.end;
   const Boundary kind = is_begin ? interval.begin_kind : interval.end_kind;
   const int vertex = is_begin ? interval.begin_vertex : interval.end_vertex;
-  EXPECT_LE(distance(wall.segment, point + scene.observer), 1e-9);
-  EXPECT_LE(point.norm(), scene.max_range * (1.0 + 1e-9));
+  EXPECT_LE(distance(wall.segment, point + sight.observer), 1e-9);
+  EXPECT_LE(point.norm(), sight.max_range * (1.0 + 1e-9));
   if (kind == Boundary::vertex) {
     ASSERT_TRUE(vertex == wall.vertex_a || vertex == wall.vertex_b);
     const Vector2d expected =
-        scene.map.vertices()[static_cast<std::size_t>(vertex)] - scene.observer;
+        sight.map.vertices()[static_cast<std::size_t>(vertex)] - sight.observer;
     EXPECT_LE((expected - point).norm(), 1e-12);
     return;
   }
   EXPECT_EQ(vertex, -1);
   if (kind == Boundary::range_limit) {
-    EXPECT_NEAR(point.norm(), scene.max_range, 1e-7 * scene.max_range);
+    EXPECT_NEAR(point.norm(), sight.max_range, 1e-7 * sight.max_range);
     return;
   }
   // Just outside, something nearer must be seen, and the wall itself must still be there.
   const double outside = bearing_of(point) + (is_begin ? -1e-8 : 1e-8);
-  EXPECT_LE(cast(scene.map, scene.observer, outside, kInfinity), point.norm() * (1.0 + 1e-4));
-  EXPECT_GT((point + scene.observer - wall.segment.a).norm(), 1e-11);
-  EXPECT_GT((point + scene.observer - wall.segment.b).norm(), 1e-11);
+  EXPECT_LE(cast(sight.map, sight.observer, outside, kInfinity), point.norm() * (1.0 + 1e-4));
+  EXPECT_GT((point + sight.observer - wall.segment.a).norm(), 1e-11);
+  EXPECT_GT((point + sight.observer - wall.segment.b).norm(), 1e-11);
 }
 
-void expect_intervals(const Scene& scene, std::span<const VisibleInterval> intervals) {
+void expect_intervals(const Sight& sight, std::span<const VisibleInterval> intervals) {
   double last_end = -kPi;
   for (const VisibleInterval& interval : intervals) {
     EXPECT_GT(cross(interval.begin, interval.end), 0.0);
@@ -60,31 +60,31 @@ void expect_intervals(const Scene& scene, std::span<const VisibleInterval> inter
     }
     EXPECT_GE(begin, last_end - 1e-11) << "overlap or disorder";
     last_end = end;
-    expect_boundary(scene, interval, true);
-    expect_boundary(scene, interval, false);
+    expect_boundary(sight, interval, true);
+    expect_boundary(sight, interval, false);
     for (const double share : {0.25, 0.5, 0.75}) {
       const Vector2d inside = interval.begin + share * (interval.end - interval.begin);
       if (end - begin < 1e-6) continue;
       EXPECT_TRUE(
-          is_right(inside.norm(), scene.map, scene.observer, bearing_of(inside), scene.max_range));
+          is_right(inside.norm(), sight.map, sight.observer, bearing_of(inside), sight.max_range));
     }
   }
 }
 
 /// Compares a sweep with casting: its intervals, and single beams at, beside and between all wall
 /// ends.
-void expect_right(const Scene& scene, Visibility& visibility) {
-  visibility.sweep(scene.map, scene.observer, scene.max_range);
-  expect_intervals(scene, visibility.intervals());
+void expect_right(const Sight& sight, Visibility& visibility) {
+  visibility.sweep(sight.map, sight.observer, sight.max_range);
+  expect_intervals(sight, visibility.intervals());
   std::vector<double> bearings{0.0, 1.0, 2.0, kPi, -kPi, -1.0};
-  for (const Vector2d& vertex : scene.map.vertices()) {
-    const double bearing = bearing_of(vertex - scene.observer);
+  for (const Vector2d& vertex : sight.map.vertices()) {
+    const double bearing = bearing_of(vertex - sight.observer);
     for (const double nudge : {0.0, -1e-5, 1e-5, 0.1}) bearings.push_back(bearing + nudge);
   }
   for (const double bearing : bearings) {
     double range = 0.0;
     visibility.ranges(bearing, 1.0, {&range, 1});
-    EXPECT_TRUE(is_right(range, scene.map, scene.observer, bearing, scene.max_range));
+    EXPECT_TRUE(is_right(range, sight.map, sight.observer, bearing, sight.max_range));
   }
 }
 
@@ -114,12 +114,12 @@ TEST(Visibility, GridWorldsLikeCasting) {
   Visibility visibility;
   for (int world = 0; world < 3000 && !HasFailure(); ++world) {
     const int size = 2 + static_cast<int>(random() % 8);
-    Scene scene;
-    scene.map = map_of(grid_segments(random, static_cast<int>(random() % 24), size));
-    scene.observer = awkward_observer(random, scene.map, size);
-    scene.max_range = awkward_range(random);
+    Sight sight;
+    sight.map = map_of(grid_segments(random, static_cast<int>(random() % 24), size));
+    sight.observer = awkward_observer(random, sight.map, size);
+    sight.max_range = awkward_range(random);
     SCOPED_TRACE(world);
-    expect_right(scene, visibility);
+    expect_right(sight, visibility);
   }
 }
 
@@ -131,15 +131,15 @@ TEST(Visibility, TurnedGridWorldsLikeCasting) {
     const Pose2 turned{1000.0 * any(random), 1000.0 * any(random), any(random)};
     std::vector<Segment> segments = grid_segments(random, static_cast<int>(random() % 24), 6);
     for (Segment& s : segments) s = {turned * s.a, turned * s.b};
-    Scene scene;
-    scene.map = map_of(segments);
-    scene.observer = turned * Vector2d(random() % 7, random() % 7);
-    scene.max_range = awkward_range(random);
+    Sight sight;
+    sight.map = map_of(segments);
+    sight.observer = turned * Vector2d(random() % 7, random() % 7);
+    sight.max_range = awkward_range(random);
     SCOPED_TRACE(world);
     // On a wall up to rounding: casting cannot tell on which side it stands.
     bool on_wall = false;
-    for (const Wall& w : scene.map.walls()) on_wall |= distance(w.segment, scene.observer) < 1e-8;
-    if (!on_wall) expect_right(scene, visibility);
+    for (const Wall& w : sight.map.walls()) on_wall |= distance(w.segment, sight.observer) < 1e-8;
+    if (!on_wall) expect_right(sight, visibility);
   }
 }
 
@@ -154,12 +154,12 @@ TEST(Visibility, RandomWorldsLikeCasting) {
       const Vector2d a(any(random), any(random));
       segments.push_back({a, a + 0.3 * Vector2d(any(random) - 10.0, any(random) - 10.0)});
     }
-    Scene scene;
-    scene.map = map_of(segments);
-    scene.observer = {any(random), any(random)};
-    scene.max_range = awkward_range(random);
+    Sight sight;
+    sight.map = map_of(segments);
+    sight.observer = {any(random), any(random)};
+    sight.max_range = awkward_range(random);
     SCOPED_TRACE(world);
-    expect_right(scene, visibility);
+    expect_right(sight, visibility);
   }
 }
 
@@ -178,12 +178,12 @@ TEST(Visibility, DensePlansLikeCasting) {
         for (std::size_t i = 0; i < 4; ++i) segments.push_back({c[i], c[(i + 1) % 4]});
       }
     }
-    Scene scene;
-    scene.map = map_of(segments);
-    scene.observer = {any(random), any(random)};
-    scene.max_range = 45.0;
+    Sight sight;
+    sight.map = map_of(segments);
+    sight.observer = {any(random), any(random)};
+    sight.max_range = 45.0;
     SCOPED_TRACE(world);
-    expect_right(scene, visibility);
+    expect_right(sight, visibility);
   }
 }
 
