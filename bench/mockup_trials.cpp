@@ -7,12 +7,11 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <string>
 #include <vector>
 
 #include "adit/evaluation/report.hpp"
-#include "adit/localizer/localizer.hpp"
-#include "adit/simulation/clutter.hpp"
-#include "adit/simulation/vehicle.hpp"
+#include "mockup_run.hpp"
 
 namespace adit {
 namespace {
@@ -20,7 +19,6 @@ namespace {
 struct Trial {
   std::vector<EstimateSample> estimates;
   std::vector<StampedPose> truth;
-  bool lost = false;
 };
 
 struct Times {
@@ -34,31 +32,23 @@ struct Times {
   }
 };
 
-double quantile_us(std::vector<double> seconds, double q) {
+double quantile(std::vector<double> values, double q) {
   const auto place =
-      seconds.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(seconds.size() - 1));
-  std::nth_element(seconds.begin(), place, seconds.end());
-  return 1e6 * *place;
+      values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
 }
 
-LocalizerSettings settings_for(const ScannerSpec& spec, const DriveOptions& drive) {
-  LocalizerSettings settings;
-  settings.scanner = spec.model;
-  settings.odometry = drive.odometry;
-  settings.estimation.map_sigma_m = 0.0;  // the mockup's plan is exact
-  return settings;
+/// Median and 99th percentile of seconds, in microseconds.
+std::string spread(const std::vector<double>& seconds) {
+  return fmt::format("{:.1f} {:.1f}", 1e6 * quantile(seconds, 0.5), 1e6 * quantile(seconds, 0.99));
 }
 
 Trial run(const LineMap& map, std::uint64_t seed, int clutter, Times& times,
           std::vector<double>& calls) {
-  World world = mockup();
-  world.path = mockup_path();
-  add_clutter(world, clutter_of(clutter), seed);
-  const DriveOptions drive;
-  const ScannerSpec spec = cyclone();
-  const Recording recording = record_stops(world, world.path, spec, drive, seed);
-
-  Localizer localizer(map, settings_for(spec, drive));
+  const MockupRun mockup_run(seed, clutter);
+  const Recording& recording = mockup_run.recording;
+  Localizer localizer(map, mockup_run.settings);
   localizer.start(recording.first_guess.pose, recording.first_guess.covariance);
   Trial trial;
   trial.truth = recording.truth;
@@ -67,14 +57,6 @@ Trial run(const LineMap& map, std::uint64_t seed, int clutter, Times& times,
     trial.estimates.push_back({e.stamp, e.pose, e.covariance, e.status, e.protection_m});
     times.add(localizer.timings());
     calls.push_back(localizer.match().calls);
-    if (std::getenv("ADIT_TRIALS_VERBOSE") != nullptr) {
-      const Vector2d error = e.pose.translation() - recording.truth[i].pose.translation();
-      fmt::print("{} {:2} {} error {:.3f} sigma {:.3f} pairs {} of {} dropped {} chi2 {:.1f}/{}\n",
-                 seed, i, to_string(e.status), error.norm(),
-                 std::sqrt(e.covariance.topLeftCorner<2, 2>().trace()), e.pairs.size(),
-                 localizer.match().candidates, localizer.fit().dropped, e.chi_square,
-                 e.degrees_of_freedom);
-    }
   }
   return trial;
 }
@@ -102,16 +84,13 @@ int trials(int runs, std::uint64_t first_seed, int clutter) {
   fmt::print("{} runs from seed {}, {} pieces of clutter\n{}", runs, first_seed, clutter,
              to_text(all));
   fmt::print("lost runs {}\n", lost);
-  fmt::print("calls of the search: median {:.0f}, largest {:.0f}\n", 1e-6 * quantile_us(calls, 0.5),
-             1e-6 * quantile_us(calls, 1.0));
+  fmt::print("calls of the search: median {:.0f}, largest {:.0f}\n", quantile(calls, 0.5),
+             quantile(calls, 1.0));
   fmt::print(
-      "microseconds (median, p99): prediction {:.1f} {:.1f}, extraction {:.1f} {:.1f}, "
-      "matching {:.1f} {:.1f}, estimation {:.1f} {:.1f}, cycle {:.1f} {:.1f}\n",
-      quantile_us(times.prediction, 0.5), quantile_us(times.prediction, 0.99),
-      quantile_us(times.extraction, 0.5), quantile_us(times.extraction, 0.99),
-      quantile_us(times.matching, 0.5), quantile_us(times.matching, 0.99),
-      quantile_us(times.estimation, 0.5), quantile_us(times.estimation, 0.99),
-      quantile_us(times.total, 0.5), quantile_us(times.total, 0.99));
+      "microseconds (median, p99): prediction {}, extraction {}, matching {}, estimation {}, cycle "
+      "{}\n",
+      spread(times.prediction), spread(times.extraction), spread(times.matching),
+      spread(times.estimation), spread(times.total));
   return 0;
 }
 

@@ -110,10 +110,8 @@ TEST(Envelope, HidesOnlyWhatIsHidden) {
     const Vector2d begin = 3.0 * somewhere(random);
     const SweptWall wall = swept(begin, begin + somewhere(random), 12);
     const double distance = nearest_point({wall.begin, wall.end}, Vector2d::Zero()).norm();
-    EXPECT_EQ(envelope.hides(wall, 1e9), envelope.hides(wall, 1e18));
     if (!envelope.hides(wall, distance * distance)) continue;
     ++hidden;
-    EXPECT_GE(envelope.reach(), 0.0);
     walls.push_back(wall);
     for (double key = -1.9995; key < 2.0; key += 0.01) {
       ASSERT_NE(nearest(walls, key_direction(key)), 12);
