@@ -140,8 +140,13 @@ void Extractor::add_edge(std::size_t s, int arm) {
   const double half_step = 0.5 * std::abs(points_.beam_step());
   const Vector2d at = points_.beam(last);
   const Vector2d edge = at * std::cos(half_step) + step * std::sin(half_step) * perpendicular(at);
-  // Where noise decided which point is the last, the edge may be a whole beam further on.
-  const double sigma = is_cut ? 2.0 * half_step : half_step / std::sqrt(3.0);
+  // The last beam on the wall may be lost to noise; where a cut and not a gap ends the wall, the
+  // noise also decided which point is the last.
+  const double in_gap = 0.8 * half_step;
+  const double at_cut =
+      is_cut ? 0.5 * std::sqrt(points_.noise().beam_variance) / points_.range(last) + half_step
+             : 0.0;
+  const double sigma = std::hypot(in_gap, at_cut);
   Corner corner = occluding_corner(line, arm, edge, sigma);
   corner.arms[static_cast<std::size_t>(arm)] = line_[s];
   features_.corners.push_back(corner);
