@@ -126,7 +126,9 @@ bool Localizer::is_believable() const {
   const Vector3d innovation(fit_.pose.x, fit_.pose.y,
                             angle_between(predicted_laser_.pose.theta, fit_.pose.theta));
   const Matrix3d expected = floored(predicted_laser_.covariance);
-  return innovation.dot(expected.inverse() * innovation) < options.gate_chi_square;
+  const double gate =
+      fit_.used < options.few_pairs ? options.few_pairs_gate_chi_square : options.gate_chi_square;
+  return innovation.dot(expected.inverse() * innovation) < gate;
 }
 
 /// Believes the fit or falls back on dead reckoning, and says which.

@@ -25,6 +25,8 @@ struct LocalizerOptions {
   double prior_floor_m = 0.02;
   double prior_floor_rad = 0.004;
   double gate_chi_square = 60.0;
+  double few_pairs_gate_chi_square = 16.3;
+  int few_pairs = 4;
   double map_stretch_m = 2.0;
   int min_pairs = 2;
   double max_dropped_ratio = 0.5;
@@ -45,6 +47,10 @@ struct LocalizerOptions {
           "a fit farther than this from the predicted pose is refused; far beyond chance (7.3 "
           "sigma), "
           "because wheels slip more than their noise says");
+    field("few_pairs_gate_chi_square", self.few_pairs_gate_chi_square,
+          "the same for a fit of few pairs, which must not overrule dead reckoning; chi-square of "
+          "three degrees of freedom at 1e-3");
+    field("few_pairs", self.few_pairs, "a fit of fewer pairs than this has few");
     field(
         "map_stretch_m", self.map_stretch_m,
         "length of wall that shares one error of the plan (m): as far as that, the plan turns the "

@@ -1,0 +1,319 @@
+#!/usr/bin/env bash
+# The command from outside, as its users and their scripts meet it.
+# Usage: cli_test.sh ADIT SCRATCH CASE; each function below is a case.
+set -euo pipefail
+
+adit=$1
+scratch=$2/$3
+rm -rf "$scratch"
+mkdir -p "$scratch"
+cd "$scratch"
+
+die() {
+  printf 'FAILED: %s\n' "$*" >&2
+  [ -s err ] && sed 's/^/  stderr: /' err >&2
+  exit 1
+}
+
+# expect STATUS ARG...: runs adit, its output in the files out and err
+expect() {
+  local wanted=$1 status=0
+  shift
+  "$adit" "$@" >out 2>err || status=$?
+  [ "$status" -eq "$wanted" ] || die "status $status, not $wanted: adit $*"
+}
+# says PATTERN: what stderr must say
+says() { grep -qE -- "$1" err || die "stderr does not say: $1"; }
+prints() { grep -qE -- "$1" out || die "stdout does not say: $1"; }
+absent() {
+  local path
+  for path in "$@"; do [ ! -e "$path" ] || die "$path was left behind"; done
+}
+there() {
+  local path
+  for path in "$@"; do [ -s "$path" ] || die "$path is absent or empty"; done
+}
+# in_range WHAT VALUE LOW HIGH
+in_range() {
+  awk -v x="$2" -v low="$3" -v high="$4" 'BEGIN { exit !(x != "" && x + 0 == x && x >= low && x <= high) }' ||
+    die "$1 is $2, not in $3 to $4"
+}
+# json_number FILE OBJECT KEY: a number of an object at the top, of pretty-printed JSON; with an
+# empty OBJECT, of the top itself
+json_number() {
+  awk -v object="$2" -v key="\"$3\":" '
+    $1 == "\"" object "\":" && /{$/ { inside = 1 }
+    /^  }/ { inside = 0 }
+    $1 == key && (object == "" || inside) { sub(/,$/, "", $2); print $2; exit }' "$1"
+}
+lines_of() { grep -c '' "$1"; }
+is_png() { [ "$(head -c 8 "$1" | od -An -tx1 | tr -d ' \n')" = 89504e470d0a1a0a ] || die "$1 is no PNG"; }
+# walls A B C D...: a plan of one closed room, in a file
+room_plan() { printf 'x1,y1,x2,y2\n0,0,8,0\n8,0,8,5\n8,5,3,5\n3,5,3,7\n3,7,0,7\n0,7,0,0\n' >"$1"; }
+
+statuses() {
+  expect 2
+  expect 2 frobnicate
+  expect 2 localize
+  says '--map'
+  expect 2 localize --map plan.csv
+  says '--log'
+  expect 2 simulate mockup
+  expect 2 simulate mockup -o d --scanner nonsense
+  absent d
+  expect 2 simulate mockup -o d --clutter many
+  expect 2 simulate mockup -o d --clutter -3
+  expect 2 evaluate --estimate e.tum
+  expect 2 evaluate
+  expect 2 map
+  expect 2 map info
+  expect 2 plot
+  expect 2 plot map -o x.png
+  expect 2 demo extra
+  room_plan plan.csv
+  expect 2 simulate plan.csv -o d
+  says '--path'
+  absent d
+  expect 0 --help
+  prints 'localize'
+  expect 0 localize --help
+  prints 'degrees'
+  expect 0 --version
+  expect 0 config
+  prints '^\[scanner\]'
+  cp out config.toml
+  expect 0 simulate mockup -o d
+  for estimator in points full nonsense; do
+    expect 2 localize --map d/plan.csv --log d/log.clf --estimator $estimator -o e
+  done
+  for start in 1,2 1,2,x 1,2,3,4 '' nan,0,0 1,2,3m; do
+    expect 2 localize --map d/plan.csv --log d/log.clf "--start=$start" -o e
+  done
+  absent e
+  expect 0 localize --map d/plan.csv --log d/log.clf --config config.toml -o e
+}
+
+# bad WHERE ARG...: a call that is right with input that is not
+bad() {
+  local where=$1
+  shift
+  expect 1 "$@"
+  says "$where"
+  [ "$(lines_of err)" -eq 1 ] || die "more than one line of complaint: adit $*"
+  absent e picture.png
+}
+
+bad_input() {
+  expect 0 simulate mockup -o d
+  cd d
+  printf '0,0,1,0\n1,0,1,1\nx,0,1\n' >letters.csv
+  printf '0,0,1,0\n1,0,nan,1\n' >nan.csv
+  printf '0,0,1,0\n1,0,1,1,\377\000\001\n' >binary.csv
+  : >empty.csv
+  printf '# nothing\n' >comments.csv
+  local plan
+  for plan in letters.csv:3 nan.csv:2 binary.csv empty.csv comments.csv absent.csv; do
+    bad "$plan" localize --map "${plan%:*}" --log log.clf -o e
+    bad "$plan" map info "${plan%:*}"
+    bad "$plan" map check "${plan%:*}"
+    bad "$plan" map convert "${plan%:*}" -o e
+    bad "$plan" plot map --map "${plan%:*}" -o picture.png
+    bad "$plan" simulate "${plan%:*}" --path truth.tum -o e
+  done
+  : >empty.clf
+  head -c 3000 /dev/urandom >binary.clf
+  printf 'FLASER 180 1 2 3\nODOM 0 0 0 0 0 0 1 h 1\n' >useless.clf
+  local log
+  for log in empty.clf binary.clf useless.clf absent.clf; do
+    bad "$log" localize --map plan.csv --log $log -o e
+    bad "$log" plot scan --scan $log:0 -o picture.png
+  done
+  bad 'log.clf.*16' plot scan --scan log.clf:16 -o picture.png
+  printf '[scanner]\nrange_sigma_m = 0.1\n\n[scanner2]\nx = 1\n' >table.toml
+  printf '[scanner]\nrange_sigma = 0.1\n' >key.toml
+  printf '[scanner]\nmax_range_m = 50\nrange_sigma_m = "wide"\n' >type.toml
+  printf '[scanner\n' >syntax.toml
+  local toml
+  for toml in table.toml:4 key.toml:2 type.toml:3 syntax.toml:1 absent.toml; do
+    bad "$toml" localize --map plan.csv --log log.clf --config "${toml%:*}" -o e
+    bad "$toml" simulate mockup --config "${toml%:*}" -o e
+  done
+  printf '1 2 3\n' >short.tum
+  bad short.tum:1 evaluate --estimate short.tum --truth truth.tum
+  bad short.tum:1 evaluate --estimate truth.tum --truth short.tum
+  bad short.tum:1 simulate plan.csv --path short.tum -o e
+  bad short.tum:1 plot trajectory --map plan.csv --trajectory short.tum -o picture.png
+  printf '1 2 3\n' >short.relations
+  bad short.relations:1 evaluate --estimate truth.tum --relations short.relations
+  bad 'e' plot map --map plan.csv -o e/picture.png
+  bad 'picture.jpeg' plot map --map plan.csv -o picture.jpeg
+  absent picture.jpeg
+
+  # a bad line of a log is skipped, and counted
+  { head -n 5 log.clf && printf 'ROBOTLASER1 0 nan\nROBOTLASER1 0 -3.1 6.2\n' && tail -n +6 log.clf; } >worse.clf
+  expect 0 localize --map plan.csv --log worse.clf -o f
+  grep -q '"scans": 16' f/report.json || die 'the good lines were not read'
+  grep -A 5 '"warnings": \[' f/report.json | grep -q 'worse\|line\|2' || die 'no warning in the report'
+
+  # outputs that cannot be written
+  : >file
+  bad file localize --map plan.csv --log log.clf -o file
+  bad file simulate mockup -o file/below
+}
+
+# judged ESTIMATE TRUTH MEAN MAX: evaluates, with bounds on the position error
+judged() {
+  expect 0 evaluate --estimate "$1" --truth "$2" --json
+  in_range "mean error" "$(json_number out position mean)" 0 "$3"
+  in_range "largest error" "$(json_number out position max)" 0 "$4"
+  in_range "missing" "$(json_number out '' missing)" 0 0
+}
+# has_form FOLDER LOG: the files that localize leaves
+has_form() {
+  there "$1"/{trajectory.tum,estimates.csv,report.json,timings.json}
+  local scans
+  scans=$(grep -c '^\(ROBOTLASER\|FLASER\)' "$2")
+  head -n 1 "$1/estimates.csv" |
+    grep -q '^t,x,y,theta,cov_xx,cov_xy,cov_xt,cov_yy,cov_yt,cov_tt,status,protection_m' ||
+    die "the header of $1/estimates.csv"
+  [ "$(lines_of "$1/estimates.csv")" -eq $((scans + 1)) ] || die "not one row for each of $scans scans"
+  [ "$(grep -c '^[^#]' "$1/trajectory.tum")" -eq "$scans" ] || die 'not one pose for each scan'
+  awk 'NF != 8 { exit 1 }' "$1/trajectory.tum" || die 'a row of trajectory.tum has not 8 columns'
+  awk -F, 'NR > 1 && ($1 !~ /^[0-9]+\.[0-9][0-9][0-9][0-9][0-9][0-9]$/ || $11 !~ /^(ok|degraded|ambiguous|lost)$/) { exit 1 }' \
+    "$1/estimates.csv" || die "stamps or statuses of $1/estimates.csv"
+  ! grep -qiE 'micro|second|time|elapsed' "$1/report.json" || die 'report.json speaks of time'
+  grep -q microseconds "$1/timings.json" || die 'timings.json has no unit'
+}
+# world NAME MEAN MAX ARG...: simulate, localize, evaluate
+world() {
+  local name=$1 mean=$2 max=$3 start
+  shift 3
+  expect 0 simulate "$@" -o sim
+  there sim/{plan.csv,log.clf,truth.tum,config.toml}
+  start=$(first_pose sim/truth.tum)
+  expect 0 localize --map sim/plan.csv --log sim/log.clf --config sim/config.toml --start "$start" -o out1
+  has_form out1 sim/log.clf
+  judged out1/estimates.csv sim/truth.tum "$mean" "$max"
+  judged out1/trajectory.tum sim/truth.tum "$mean" "$max"
+}
+# first_pose TUM: as --start wants it
+first_pose() {
+  awk '/^[^#]/ { print $2 "," $3 "," atan2($7, $8) * 114.591559026; exit }' "$1"
+}
+
+mockup() {
+  world mockup 0.04 0.25 mockup --clutter 8 --seed 5
+  expect 0 evaluate --estimate out1/estimates.csv --truth sim/truth.tum --json
+  in_range 'NEES per degree of freedom' "$(json_number out nees per_dof)" 0.3 3
+  in_range 'rows that are ok' "$(json_number out by_status ok)" 15 16
+  # without --start: the log's odometry begins at the first guess
+  expect 0 localize --map sim/plan.csv --log sim/log.clf --config sim/config.toml -o out2
+  judged out2/estimates.csv sim/truth.tum 0.05 0.3
+  # without --config: what is not given is found in the log
+  expect 0 localize --map sim/plan.csv --log sim/log.clf -o out3
+  judged out3/estimates.csv sim/truth.tum 0.06 0.4
+}
+
+panel() { world panel 0.15 1 panel --scanner sick --seed 3; }
+
+drift() { world drift 0.5 2 drift --scanner sick --seed 3; }
+
+plan_with_path() {
+  room_plan plan.csv
+  printf '0 1 1 0 0 0 0 1\n1 6 1.5 0 0 0 0 1\n2 6.5 3.5 0 0 0 0.7071067812 0.7071067812\n3 1.5 4 0 0 0 1 0\n' >path.tum
+  world plan 0.03 0.2 plan.csv --path path.tum --scanner hokuyo --speed 0.8 --odometry 0.02,0.5,0.02 --seed 2
+  cmp plan.csv <(printf 'x1,y1,x2,y2\n' && grep -v x1 sim/plan.csv) || die 'the plan changed on the way'
+}
+
+repeat() {
+  expect 0 simulate mockup --clutter 8 --seed 11 -o a
+  expect 0 simulate mockup --clutter 8 --seed 11 -o b
+  expect 0 simulate mockup --clutter 8 --seed 12 -o c
+  local file
+  for file in plan.csv log.clf truth.tum config.toml; do cmp a/$file b/$file; done
+  ! cmp -s a/log.clf c/log.clf || die 'the seed changes nothing'
+  expect 0 localize --map a/plan.csv --log a/log.clf --config a/config.toml -o one
+  expect 0 localize --map a/plan.csv --log a/log.clf --config a/config.toml -o two
+  for file in estimates.csv report.json trajectory.tum; do cmp one/$file two/$file; done
+  # over a result that is there
+  expect 0 localize --map a/plan.csv --log a/log.clf --config a/config.toml -o one
+  cmp one/estimates.csv two/estimates.csv
+}
+
+negative_start() {
+  printf -- '-8,-6,8,-6\n8,-6,8,5\n8,5,3,5\n3,5,3,7\n3,7,-8,7\n-8,7,-8,-6\n' >plan.csv
+  printf '0 -1 -2 0 0 0 -0.258819045 0.965925826\n1 3 -3.5 0 0 0 0 1\n' >path.tum
+  expect 0 simulate plan.csv --path path.tum --scanner sick -o sim
+  expect 0 localize --map sim/plan.csv --log sim/log.clf --config sim/config.toml --start -1,-2,-30 -o one
+  judged one/estimates.csv sim/truth.tum 0.03 0.2
+  expect 0 localize --map sim/plan.csv --log sim/log.clf --config sim/config.toml --start=-1,-2,-30 -o two
+  cmp one/estimates.csv two/estimates.csv
+  expect 0 plot features --map plan.csv --pose -1,-2,-30 -o features.png
+  is_png features.png
+}
+
+maps() {
+  room_plan plan.csv
+  expect 0 map info plan.csv
+  prints '6 segments, 6 walls'
+  prints '8\.0 x 7\.0 m'
+  expect 0 map check plan.csv
+  prints '^clean'
+  # a crossing, a T-junction, a duplicate
+  { cat plan.csv && printf -- '-1,3,2,3\n0,0,8,0\n'; } >dirty.csv
+  expect 1 map check dirty.csv
+  prints '1 duplicates'
+  prints '1 crossings'
+  prints 'needs cleaning'
+  expect 0 map convert dirty.csv -o clean.csv
+  expect 0 map check clean.csv
+  expect 0 map convert clean.csv -o again.csv
+  cmp clean.csv again.csv
+  expect 2 map convert dirty.csv
+}
+
+plots() {
+  expect 0 simulate mockup --clutter 8 --seed 3 -o d
+  cd d
+  local start
+  start=$(first_pose truth.tum)
+  expect 0 localize --map plan.csv --log log.clf --config config.toml -o run
+  expect 0 plot map --map plan.csv -o map.png
+  expect 0 plot scan --scan log.clf:4 --config config.toml -o scan.png
+  expect 0 plot features --map plan.csv --pose "$start" -o features.png
+  expect 0 plot match --map plan.csv --scan log.clf:0 --pose "$start" --config config.toml -o match.png
+  prints '^ok'
+  expect 0 plot trajectory --map plan.csv --trajectory run/trajectory.tum -o tum.png
+  expect 0 plot trajectory --map plan.csv --estimate run/estimates.csv --truth truth.tum -o csv.png
+  local kind
+  for kind in map scan features match tum csv; do is_png $kind.png; done
+  expect 0 plot map --map plan.csv -o map.svg
+  grep -q '<svg' map.svg || die 'map.svg is no SVG'
+  expect 0 plot map --map plan.csv -o map.pdf
+  [ "$(head -c 5 map.pdf)" = %PDF- ] || die 'map.pdf is no PDF'
+  expect 2 plot match --map plan.csv --scan log.clf:0 --pose 1,2 -o bad.png
+  absent bad.png
+}
+
+demo() {
+  expect 0 demo -o d
+  prints 'Table I:'
+  prints 'Table II:'
+  prints 'position, adit'
+  there d/{plan.csv,log.clf,truth.tum,config.toml,trajectory.tum,estimates.csv}
+  local figure
+  for figure in 04 05 09 10 11 12 13; do
+    there d/fig$figure-*.png
+    is_png d/fig$figure-*.png
+  done
+  judged d/estimates.csv d/truth.tum 0.04 0.25
+  # the same experiment from its files
+  expect 0 localize --map d/plan.csv --log d/log.clf --config d/config.toml -o e
+  judged e/estimates.csv d/truth.tum 0.04 0.25
+  expect 1 demo -o d/plan.csv
+  says plan.csv
+}
+
+"$3"
+cd "$scratch/.."
+rm -rf "$scratch"
