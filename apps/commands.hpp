@@ -33,7 +33,7 @@ struct SimulateArguments {
 struct LocalizeArguments {
   std::string map;
   std::string log;
-  std::string start;
+  std::optional<std::string> start;
   std::string config;
   std::string output = "adit-localize";
   std::string estimator = "features";

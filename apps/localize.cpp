@@ -1,12 +1,13 @@
 #include <fmt/core.h>
 
-#include <algorithm>
-#include <filesystem>
+#include <optional>
 
 #include "adit/io/json.hpp"
 #include "adit/io/plan.hpp"
 #include "adit/io/trajectory.hpp"
 #include "commands.hpp"
+#include "configured.hpp"
+#include "output_folder.hpp"
 #include "parse_pose.hpp"
 #include "replay.hpp"
 #include "report_error.hpp"
@@ -19,40 +20,32 @@ struct Inputs {
   Plan plan;
   Log log;
   LoadedConfiguration configuration;
-  std::optional<Pose2> start;
 };
 
 Result<Inputs> read_inputs(const LocalizeArguments& arguments) {
   Inputs inputs;
-  if (!arguments.config.empty()) {
-    Result<LoadedConfiguration> configuration = read_configuration(arguments.config);
-    if (!configuration) return tl::unexpected(configuration.error());
-    inputs.configuration = std::move(*configuration);
-  }
-  LogOptions options;
-  if (inputs.configuration.has("scanner.max_range_m")) {
-    options.max_range_m = inputs.configuration.values.localizer.scanner.max_range_m;
-  }
+  Result<LoadedConfiguration> configuration = load_configuration(arguments.config);
+  if (!configuration) return tl::unexpected(configuration.error());
+  inputs.configuration = std::move(*configuration);
   Result<Plan> plan = read_plan(arguments.map);
   if (!plan) return tl::unexpected(plan.error());
   inputs.plan = std::move(*plan);
-  Result<Log> log = read_log(arguments.log, options);
+  Result<Log> log = read_log(arguments.log, log_options(inputs.configuration));
   if (!log) return tl::unexpected(log.error());
   inputs.log = std::move(*log);
   return inputs;
 }
 
-Result<void> write_results(const std::filesystem::path& folder, const Replay& replay,
-                           const Json& report, const Json& timings) {
-  std::error_code code;
-  std::filesystem::create_directories(folder, code);
-  if (code) return fail("cannot make the folder: " + code.message(), folder.string());
+Result<void> write_results(const std::string& folder, const Replay& replay, const Json& report,
+                           const Json& timings) {
   std::vector<StampedPose> trajectory;
   for (const EstimateRow& row : replay.rows) trajectory.push_back({row.stamp, row.pose});
-  return write_trajectory(trajectory, (folder / "trajectory.tum").string())
-      .and_then([&] { return write_estimates(replay.rows, (folder / "estimates.csv").string()); })
-      .and_then([&] { return write_json(report, (folder / "report.json").string()); })
-      .and_then([&] { return write_json(timings, (folder / "timings.json").string()); });
+  using Path = const std::string&;
+  return write_all(
+      folder, {{"trajectory.tum", [&](Path path) { return write_trajectory(trajectory, path); }},
+               {"estimates.csv", [&](Path path) { return write_estimates(replay.rows, path); }},
+               {"report.json", [&](Path path) { return write_json(report, path); }},
+               {"timings.json", [&](Path path) { return write_json(timings, path); }}});
 }
 
 }  // namespace
@@ -64,8 +57,8 @@ int run_localize(const LocalizeArguments& arguments) {
         kWrongCall);
   }
   std::optional<Pose2> start;
-  if (!arguments.start.empty()) {
-    const Result<Pose2> pose = parse_pose(arguments.start);
+  if (arguments.start) {
+    const Result<Pose2> pose = parse_pose(*arguments.start);
     if (!pose) return report(pose.error(), kWrongCall);
     start = *pose;
   }

@@ -104,6 +104,7 @@ void add_plot(CLI::App& app, adit::PlotArguments& args, Action& action) {
   const auto add = [&](const char* name, const char* text, int (*run)(const adit::PlotArguments&)) {
     CLI::App* sub = command->add_subcommand(name, text);
     sub->add_option("-o,--output", args.output, "the picture's file")->required();
+    sub->add_option("--config", args.config, "TOML file; see 'adit config --reference'");
     sub->callback([&action, &args, run] { action = [&args, run] { return run(args); }; });
     return sub;
   };
@@ -112,7 +113,6 @@ void add_plot(CLI::App& app, adit::PlotArguments& args, Action& action) {
   };
   const auto scan = [&](CLI::App* sub) {
     sub->add_option("--scan", args.scan, "LOG:INDEX, counting scans from 0")->required();
-    sub->add_option("--config", args.config, "TOML file");
   };
   const auto pose = [&](CLI::App* sub) {
     sub->add_option("--pose", args.pose, "x,y,heading in m, m, degrees")->required();
@@ -122,7 +122,6 @@ void add_plot(CLI::App& app, adit::PlotArguments& args, Action& action) {
   CLI::App* features = add("features", "What the map shows from a pose", adit::run_plot_features);
   map(features);
   pose(features);
-  features->add_option("--config", args.config, "TOML file");
   CLI::App* match =
       add("match", "A scan on the map at a pose, with numbered pairs", adit::run_plot_match);
   map(match);

@@ -5,6 +5,7 @@
 #include "adit/io/trajectory.hpp"
 #include "adit/plot/figures.hpp"
 #include "commands.hpp"
+#include "configured.hpp"
 #include "parse_pose.hpp"
 #include "report_error.hpp"
 #include "scan_reference.hpp"
@@ -12,8 +13,26 @@
 namespace adit {
 namespace {
 
-Result<LineMap> read_map(const std::string& path) {
-  return read_plan(path).map([](const Plan& plan) { return LineMap::build(plan.segments); });
+struct Inputs {
+  LoadedConfiguration configuration;
+  LineMap map;
+};
+
+/// The configuration, and the plan cleaned under it.
+Result<Inputs> read_inputs(const PlotArguments& arguments) {
+  auto configuration = load_configuration(arguments.config);
+  if (!configuration) return tl::unexpected(configuration.error());
+  const auto plan = read_plan(arguments.map);
+  if (!plan) return tl::unexpected(plan.error());
+  Inputs inputs{std::move(*configuration), {}};
+  inputs.map = LineMap::build(plan->segments, inputs.configuration.values.map);
+  return inputs;
+}
+
+/// What is wrong with the call before any file is read: kDone or the exit status.
+int check_call(const PlotArguments& arguments) {
+  const auto named = check_picture_name(arguments.output);
+  return named ? kDone : report(named.error(), kWrongCall);
 }
 
 int finish(const Result<void>& drawn, const std::string& path) {
@@ -40,13 +59,19 @@ Result<std::vector<TrajectoryPoint>> read_run(const std::string& path) {
 }  // namespace
 
 int run_plot_map(const PlotArguments& arguments) {
-  const auto map = read_map(arguments.map);
-  if (!map) return report(map.error());
-  return finish(draw_map(arguments.output, plan_of(*map)), arguments.output);
+  if (const int wrong = check_call(arguments)) return wrong;
+  const auto inputs = read_inputs(arguments);
+  if (!inputs) return report(inputs.error());
+  return finish(draw_map(arguments.output, plan_of(inputs->map)), arguments.output);
 }
 
 int run_plot_scan(const PlotArguments& arguments) {
-  const auto scan = read_referenced_scan(arguments.scan, arguments.config);
+  if (const int wrong = check_call(arguments)) return wrong;
+  const auto reference = parse_scan_reference(arguments.scan);
+  if (!reference) return report(reference.error(), kWrongCall);
+  const auto configuration = load_configuration(arguments.config);
+  if (!configuration) return report(configuration.error());
+  const auto scan = read_referenced_scan(*reference, *configuration);
   if (!scan) return report(scan.error());
   const LocalizerSettings& settings = scan->settings.configuration.localizer;
   Extractor extractor;
@@ -57,41 +82,39 @@ int run_plot_scan(const PlotArguments& arguments) {
 }
 
 int run_plot_features(const PlotArguments& arguments) {
-  const auto map = read_map(arguments.map);
-  if (!map) return report(map.error());
+  if (const int wrong = check_call(arguments)) return wrong;
   const auto pose = parse_pose(arguments.pose);
   if (!pose) return report(pose.error(), kWrongCall);
-  LoadedConfiguration loaded;
-  if (!arguments.config.empty()) {
-    auto read = read_configuration(arguments.config);
-    if (!read) return report(read.error());
-    loaded = std::move(*read);
-  }
-  const LocalizerSettings& settings = loaded.values.localizer;
+  const auto inputs = read_inputs(arguments);
+  if (!inputs) return report(inputs.error());
+  const LocalizerSettings& settings = inputs->configuration.values.localizer;
   Visibility visibility;
-  visibility.sweep(*map, pose->translation(), settings.scanner.max_range_m);
+  visibility.sweep(inputs->map, pose->translation(), settings.scanner.max_range_m);
   ViewFromPlace view;
   view.position = pose->translation();
   view.intervals.assign(visibility.intervals().begin(), visibility.intervals().end());
-  predict_features(*map, visibility, view.position, settings.prediction, view.features);
-  return finish(
-      draw_visible_features(arguments.output, plan_of(*map), std::vector<ViewFromPlace>{view}),
-      arguments.output);
+  predict_features(inputs->map, visibility, view.position, settings.prediction, view.features);
+  return finish(draw_visible_features(arguments.output, plan_of(inputs->map),
+                                      std::vector<ViewFromPlace>{view}),
+                arguments.output);
 }
 
 int run_plot_match(const PlotArguments& arguments) {
-  const auto map = read_map(arguments.map);
-  if (!map) return report(map.error());
+  if (const int wrong = check_call(arguments)) return wrong;
   const auto pose = parse_pose(arguments.pose);
   if (!pose) return report(pose.error(), kWrongCall);
-  const auto scan = read_referenced_scan(arguments.scan, arguments.config);
+  const auto reference = parse_scan_reference(arguments.scan);
+  if (!reference) return report(reference.error(), kWrongCall);
+  const auto inputs = read_inputs(arguments);
+  if (!inputs) return report(inputs.error());
+  const auto scan = read_referenced_scan(*reference, inputs->configuration);
   if (!scan) return report(scan.error());
-  Localizer localizer(*map, scan->settings.configuration.localizer);
+  Localizer localizer(inputs->map, scan->settings.configuration.localizer);
   localizer.start(*pose);
   const Estimate& estimate = localizer.update(scan->scan.scan, scan->scan.odom_from_vehicle);
   const Pose2 mounting = scan->scan.scan.vehicle_from_laser;
   const Vector2d observer = (localizer.predicted().pose * mounting).translation();
-  const std::vector<Segment> plan = plan_of(*map);
+  const std::vector<Segment> plan = plan_of(inputs->map);
   MatchView view;
   view.plan = plan;
   view.model = &localizer.model_features();
@@ -106,8 +129,9 @@ int run_plot_match(const PlotArguments& arguments) {
 }
 
 int run_plot_trajectory(const PlotArguments& arguments) {
-  const auto map = read_map(arguments.map);
-  if (!map) return report(map.error());
+  if (const int wrong = check_call(arguments)) return wrong;
+  const auto inputs = read_inputs(arguments);
+  if (!inputs) return report(inputs.error());
   const auto run = read_run(arguments.trajectory);
   if (!run) return report(run.error());
   std::vector<Pose2> reference;
@@ -116,7 +140,7 @@ int run_plot_trajectory(const PlotArguments& arguments) {
     if (!truth) return report(truth.error());
     for (const StampedPose& pose : *truth) reference.push_back(pose.pose);
   }
-  return finish(draw_trajectory(arguments.output, plan_of(*map), *run, reference),
+  return finish(draw_trajectory(arguments.output, plan_of(inputs->map), *run, reference),
                 arguments.output);
 }
 

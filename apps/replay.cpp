@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adit/config/fields.hpp"
 #include "adit/extraction/noise_estimate.hpp"
 #include "progress.hpp"
 
@@ -14,6 +15,7 @@ constexpr const char* kFromFields = "the log's own fields";
 constexpr const char* kEstimated = "estimated from the log";
 constexpr const char* kDefault = "default";
 constexpr std::size_t kScansToLearnFrom = 200;
+constexpr double kBestSigma = 1e-3;  // m; no scanner of mines is better, whatever a log shows
 
 /// The scatter of scans spread evenly over the log.
 std::optional<ScatterEstimate> scatter_of(const Log& log) {
@@ -29,6 +31,38 @@ double longest_range(const Log& log) {
   return longest;
 }
 
+const char* words_for(RangeSource source) {
+  switch (source) {
+    case RangeSource::configuration:
+      return kConfigured;
+    case RangeSource::parameter:
+      return "the log's PARAM lines";
+    case RangeSource::field:
+      return kFromFields;
+    case RangeSource::found:
+      return "found in the log's ranges";
+    case RangeSource::assumed:
+      break;
+  }
+  return "assumed: above every range of the log";
+}
+
+/// Where the maximum range of the laser that sees farthest comes from.
+const char* source_of_range(const Log& log) {
+  const auto& lasers = log.summary.lasers;
+  const auto farthest =
+      std::max_element(lasers.begin(), lasers.end(),
+                       [](const auto& a, const auto& b) { return a.max_range < b.max_range; });
+  return farthest == lasers.end() ? kFromFields : words_for(farthest->max_range_source);
+}
+
+/// The keys whose values and sources are reported even where nothing is known of them.
+bool is_reported(const ConfigField& field) {
+  const std::string name = field.name();
+  return field.table == "scanner" || field.table == "odometry" || name == "map.sigma_m" ||
+         name == "extraction.roughness_m";
+}
+
 }  // namespace
 
 ReplaySettings settle(const LoadedConfiguration& loaded, const Log& log) {
@@ -41,7 +75,7 @@ ReplaySettings settle(const LoadedConfiguration& loaded, const Log& log) {
     settings.sources[key] = source;
     return true;
   };
-  if (open("scanner.max_range_m", kFromFields)) scanner.max_range_m = longest_range(log);
+  if (open("scanner.max_range_m", source_of_range(log))) scanner.max_range_m = longest_range(log);
   if (!loaded.has("scanner.quantisation_m")) {
     const auto step = find_range_step(log, log.scans.front().laser);
     open("scanner.quantisation_m", step ? kEstimated : kDefault);
@@ -52,14 +86,14 @@ ReplaySettings settle(const LoadedConfiguration& loaded, const Log& log) {
   if (open("scanner.range_sigma_m", source) && scatter) {
     const double rounding = scanner.quantisation_m * scanner.quantisation_m / 12.0;
     const double variance = scatter->beam_sigma_m * scatter->beam_sigma_m - rounding;
-    scanner.range_sigma_m = std::sqrt(std::max(variance, 0.25 * rounding));
+    const double least = std::max(0.25 * rounding, kBestSigma * kBestSigma);
+    scanner.range_sigma_m = std::sqrt(std::max(variance, least));
   }
   if (open("extraction.roughness_m", source) && scatter) {
     extraction.roughness_m = scatter->roughness_m;
   }
-  for (const char* key : {"odometry.translation_sigma_ratio", "odometry.rotation_sigma_rad_per_m",
-                          "odometry.rotation_sigma_ratio", "map.sigma_m"}) {
-    open(key, kDefault);
+  for (const ConfigField& field : fields_of(settings.configuration)) {
+    if (is_reported(field)) settings.sources.try_emplace(field.name(), kDefault);
   }
   return settings;
 }

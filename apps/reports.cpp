@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 
+#include "adit/config/fields.hpp"
+
 namespace adit {
 namespace {
 
@@ -15,23 +17,23 @@ std::int64_t count_of(const Replay& replay, Status status) {
                        [&](const EstimateRow& row) { return row.status == status; });
 }
 
+Json value_of(const ConfigField& field) {
+  if (const auto* words = std::get_if<WordField>(&field.target)) return words->get();
+  if (const auto* number = std::get_if<double*>(&field.target)) return **number;
+  if (const auto* count = std::get_if<int*>(&field.target)) return **count;
+  return *std::get<bool*>(field.target);
+}
+
 Json settings_report(const ReplaySettings& settings) {
   Json json = Json::object();
   Configuration configuration = settings.configuration;
-  const auto add = [&](const std::string& table, const auto& options) {
-    using Options = std::decay_t<decltype(options)>;
-    Options::visit(options, [&](const char* key, const auto& value, const char*) {
-      const auto source = settings.sources.find(table + "." + key);
-      if (source == settings.sources.end()) return;
-      if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>) {
-        json[table + "." + key]["value"] = value;
-      }
-      json[table + "." + key]["source"] = source->second;
-    });
-  };
-  Configuration::visit(configuration, [&](const char* table, auto& options, const char*) {
-    add(table, std::as_const(options));
-  });
+  for (const ConfigField& field : fields_of(configuration)) {
+    const auto source = settings.sources.find(field.name());
+    if (source == settings.sources.end()) continue;
+    Json& entry = json[field.name()];
+    entry["value"] = value_of(field);
+    entry["source"] = source->second;
+  }
   return json;
 }
 
@@ -172,10 +174,9 @@ Json evaluation_report(const EvaluationReport& report) {
   json["beyond_lost"] = report.beyond_lost;
   if (report.first_lost_stamp) json["first_lost_stamp"] = *report.first_lost_stamp;
   json["confidently_wrong"] = report.confidently_wrong;
-  if (report.by_status) {
-    StatusCounts counts = *report.by_status;
-    for (const Status status : kStatuses) json["by_status"][to_string(status)] = counts[status];
-  }
+  // A bare trajectory states no status: zeros, for scripts that expect the object.
+  StatusCounts counts = report.by_status.value_or(StatusCounts{});
+  for (const Status status : kStatuses) json["by_status"][to_string(status)] = counts[status];
   if (report.nees) json["nees"] = nees_report(*report.nees);
   if (report.nees_ok) json["nees_ok"] = nees_report(*report.nees_ok);
   if (report.protection) {

@@ -2,33 +2,33 @@
 
 #include <charconv>
 
+#include "configured.hpp"
+
 namespace adit {
 
-Result<ReferencedScan> read_referenced_scan(const std::string& reference,
-                                            const std::string& configuration) {
-  const std::size_t colon = reference.rfind(':');
-  std::size_t index = 0;
-  const char* end = reference.data() + reference.size();
-  if (colon == std::string::npos ||
-      std::from_chars(reference.data() + colon + 1, end, index).ptr != end ||
-      colon + 1 == reference.size()) {
-    return fail("'" + reference + "' is no scan: expected LOG:INDEX, scans counted from 0");
-  }
-  LoadedConfiguration loaded;
-  if (!configuration.empty()) {
-    auto read = read_configuration(configuration);
-    if (!read) return tl::unexpected(read.error());
-    loaded = std::move(*read);
-  }
-  const std::string file = reference.substr(0, colon);
-  auto log = read_log(file);
+Result<ScanReference> parse_scan_reference(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  const auto wrong = [&] {
+    return fail("'" + text + "' is no scan: expected LOG:INDEX, scans counted from 0");
+  };
+  if (colon == std::string::npos || colon == 0 || colon + 1 == text.size()) return wrong();
+  ScanReference reference{text.substr(0, colon), 0};
+  const char* end = text.data() + text.size();
+  const auto parsed = std::from_chars(text.data() + colon + 1, end, reference.index);
+  if (parsed.ec != std::errc{} || parsed.ptr != end) return wrong();
+  return reference;
+}
+
+Result<ReferencedScan> read_referenced_scan(const ScanReference& reference,
+                                            const LoadedConfiguration& configuration) {
+  auto log = read_log(reference.log, log_options(configuration));
   if (!log) return tl::unexpected(log.error());
-  if (index >= log->scans.size()) {
+  if (reference.index >= log->scans.size()) {
     return fail("has " + std::to_string(log->scans.size()) + " scans, no scan " +
-                    std::to_string(index) + " (they count from 0)",
-                file);
+                    std::to_string(reference.index) + " (they count from 0)",
+                reference.log);
   }
-  return ReferencedScan{log->scans[index], settle(loaded, *log)};
+  return ReferencedScan{log->scans[reference.index], settle(configuration, *log)};
 }
 
 }  // namespace adit

@@ -1,12 +1,23 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 
+#include "adit/config/configuration.hpp"
 #include "adit/geometry/result.hpp"
 #include "adit/io/log.hpp"
 #include "replay.hpp"
 
 namespace adit {
+
+/// One scan of a log, as the command line names it.
+struct ScanReference {
+  std::string log;
+  std::size_t index = 0;  ///< counted from 0
+};
+
+/// Reads `LOG:INDEX`.
+Result<ScanReference> parse_scan_reference(const std::string& text);
 
 /// One scan of a log, and the settings that its whole log would be replayed with.
 struct ReferencedScan {
@@ -14,8 +25,8 @@ struct ReferencedScan {
   ReplaySettings settings;
 };
 
-/// Reads `LOG:INDEX`, scans counted from 0, under a configuration file (may be empty).
-Result<ReferencedScan> read_referenced_scan(const std::string& reference,
-                                            const std::string& configuration);
+/// Reads the scan from its log, as `localize` does under the same configuration.
+Result<ReferencedScan> read_referenced_scan(const ScanReference& reference,
+                                            const LoadedConfiguration& configuration);
 
 }  // namespace adit

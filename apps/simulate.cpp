@@ -1,22 +1,22 @@
 #include <fmt/core.h>
 
-#include <cmath>
-#include <filesystem>
-#include <limits>
-
 #include "adit/config/configuration.hpp"
 #include "adit/io/carmen.hpp"
 #include "adit/io/plan.hpp"
 #include "adit/io/trajectory.hpp"
 #include "adit/simulation/clutter.hpp"
 #include "adit/simulation/mine_worlds.hpp"
+#include "adit/simulation/timed_path.hpp"
 #include "adit/simulation/vehicle.hpp"
 #include "commands.hpp"
+#include "output_folder.hpp"
 #include "recording_log.hpp"
 #include "report_error.hpp"
 
 namespace adit {
 namespace {
+
+constexpr double kMostScans = 1e6;
 
 struct Scene {
   World world;
@@ -47,22 +47,6 @@ Result<World> world_named(const SimulateArguments& arguments) {
   }
   if (world.path.empty()) return fail("a plan needs --path, the poses to drive along");
   return world;
-}
-
-/// How far the walls stand from the plan, RMS over their midpoints (m): what a surveyor would
-/// state.
-double map_sigma(const World& world) {
-  const bool exact = world.walls.size() == world.plan.size();
-  if (exact || world.walls.empty()) return 0.0;
-  double sum = 0.0;
-  for (const Segment& wall : world.walls) {
-    const Vector2d middle = 0.5 * (wall.a + wall.b);
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Segment& planned : world.plan)
-      nearest = std::min(nearest, distance(planned, middle));
-    sum += nearest * nearest;
-  }
-  return std::sqrt(sum / static_cast<double>(world.walls.size()));
 }
 
 /// The preset, then the configuration file over it, then the command line over both.
@@ -97,24 +81,34 @@ Result<Scene> make_scene(const SimulateArguments& arguments) {
   return scene;
 }
 
-Result<void> write_scene(const std::filesystem::path& folder, const Scene& scene,
+/// An Error where the drive would bring home more scans than a computer holds.
+Result<void> check_size(const Scene& scene) {
+  const DriveOptions& drive = scene.drive;
+  const double scans =
+      scene.stops
+          ? static_cast<double>(scene.world.path.size())
+          : drive_along(scene.world.path, drive.speed_m_per_s, drive.turn_rate_rad_per_s).end() *
+                drive.scan_rate_hz;
+  if (scans <= kMostScans) return {};
+  return fail(fmt::format("the path and the speed make {:.3g} scans; at most {:.0f} are simulated",
+                          scans, kMostScans));
+}
+
+Result<void> write_scene(const std::string& folder, const Scene& scene,
                          const Recording& recording) {
-  std::error_code code;
-  std::filesystem::create_directories(folder, code);
-  if (code) return fail("cannot make the folder: " + code.message(), folder.string());
   Configuration configuration;
   configuration.localizer.scanner = scene.scanner.model;
   configuration.localizer.odometry = scene.drive.odometry;
-  configuration.localizer.estimation.map_sigma_m = map_sigma(scene.world);
-  return write_plan(scene.world.plan, (folder / "plan.csv").string())
-      .and_then([&] {
-        return write_carmen(to_log(recording, scene.scanner), (folder / "log.clf").string());
-      })
-      .and_then([&] { return write_trajectory(recording.truth, (folder / "truth.tum").string()); })
-      .and_then([&] {
-        return write_configuration(configuration, (folder / "config.toml").string(),
-                                   {"scanner", "odometry", "map.sigma_m"});
-      });
+  configuration.localizer.estimation.map_sigma_m = plan_error(scene.world);
+  using Path = const std::string&;
+  return write_all(
+      folder,
+      {{"plan.csv", [&](Path path) { return write_plan(scene.world.plan, path); }},
+       {"log.clf", [&](Path path) { return write_carmen(to_log(recording, scene.scanner), path); }},
+       {"truth.tum", [&](Path path) { return write_trajectory(recording.truth, path); }},
+       {"config.toml", [&](Path path) {
+          return write_configuration(configuration, path, {"scanner", "odometry", "map.sigma_m"});
+        }}});
 }
 
 }  // namespace
@@ -122,6 +116,7 @@ Result<void> write_scene(const std::filesystem::path& folder, const Scene& scene
 int run_simulate(const SimulateArguments& arguments) {
   auto scene = make_scene(arguments);
   if (!scene) return report(scene.error(), scene.error().file.empty() ? kWrongCall : kFailed);
+  if (const auto fits = check_size(*scene); !fits) return report(fits.error());
   const int pieces = add_clutter(scene->world, clutter_of(arguments.clutter), arguments.seed);
   const Recording recording = scene->stops
                                   ? record_stops(scene->world, scene->world.path, scene->scanner,

@@ -6,11 +6,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "adit/evaluation/report.hpp"
+#include "arguments.hpp"
 #include "mockup_run.hpp"
 
 namespace adit {
@@ -98,8 +98,20 @@ int trials(int runs, std::uint64_t first_seed, int clutter) {
 }  // namespace adit
 
 int main(int argc, char** argv) {
-  const auto argument = [&](int i, int otherwise) {
-    return argc > i ? std::atoi(argv[i]) : otherwise;
+  constexpr std::int64_t kMost = 1000000;
+  const auto argument = [&](int i, std::int64_t otherwise, std::int64_t least) {
+    return argc > i ? adit::whole_number(argv[i], least, kMost) : std::optional(otherwise);
   };
-  return adit::trials(argument(1, 500), static_cast<std::uint64_t>(argument(2, 1)), argument(3, 8));
+  const auto runs = argument(1, 500, 1);
+  const auto seed = argument(2, 1, 0);
+  const auto clutter = argument(3, 8, 0);
+  if (argc > 4 || !runs || !seed || !clutter) {
+    fmt::print(stderr,
+               "usage: mockup_trials [runs = 500] [first seed = 1] [pieces of clutter = 8]\n"
+               "whole numbers up to {}; 1 run or more\n",
+               kMost);
+    return 2;
+  }
+  return adit::trials(static_cast<int>(*runs), static_cast<std::uint64_t>(*seed),
+                      static_cast<int>(*clutter));
 }

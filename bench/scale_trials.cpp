@@ -114,6 +114,10 @@ int read_and_build(const std::filesystem::path& folder) {
     const auto start = std::chrono::steady_clock::now();
     const auto plan = read_plan(file.string());
     const double reading = seconds_since(start);
+    if (!plan) {
+      fmt::print(stderr, "{}\n", to_string(plan.error()));
+      return 1;
+    }
     const LineMap map = LineMap::build(plan->segments);
     totals.push_back(seconds_since(start));
     fmt::print("{} segments: read in {:.2f} s, cleaned and indexed in {:.2f} s, {} walls\n",
@@ -128,6 +132,12 @@ int read_and_build(const std::filesystem::path& folder) {
 }  // namespace adit
 
 int main(int argc, char** argv) {
+  const std::filesystem::path folder = argc > 1 ? argv[1] : ".";
+  std::error_code code;
+  if (argc > 2 || !std::filesystem::is_directory(folder, code)) {
+    fmt::print(stderr, "usage: scale_trials [folder for the temporary plan = .]\n");
+    return 2;
+  }
   adit::compare_prediction();
-  return adit::read_and_build(argc > 1 ? argv[1] : ".");
+  return adit::read_and_build(folder);
 }

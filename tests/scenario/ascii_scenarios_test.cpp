@@ -1,7 +1,9 @@
 // A map, a scan, a question.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
+#include <string>
 
 #include "adit/localizer/localizer.hpp"
 #include "adit/simulation/scanner.hpp"

@@ -1,10 +1,12 @@
 #include "adit/config/configuration.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "adit/config/fields.hpp"
 #include "adit/config/toml.hpp"
@@ -63,18 +65,46 @@ std::optional<double> number_of(const TomlValue& value) {
   return std::nullopt;
 }
 
+/// Lengths, angles and thresholds that something is divided by, or that mean nothing at 0.
+constexpr std::array kAboveZero = {
+    "extraction.min_operator_m",      "extraction.max_operator_m", "extraction.corner_chi_square",
+    "extraction.min_corner_turn_rad", "extraction.grazing_rad",    "localizer.prior_floor_m",
+    "localizer.prior_floor_rad",      "localizer.map_stretch_m",
+};
+
+/// Counts that cannot be 0, and the least that they can be.
+constexpr std::array<std::pair<const char*, int>, 4> kLeastCounts = {{
+    {"extraction.min_line_points", 3},
+    {"matching.max_candidates", 1},
+    {"matching.max_calls", 1},
+    {"estimation.max_iterations", 1},
+}};
+
+bool must_be_above_zero(const std::string& name) {
+  return std::find(kAboveZero.begin(), kAboveZero.end(), name) != kAboveZero.end();
+}
+
+int least_count(const std::string& name) {
+  for (const auto& [key, least] : kLeastCounts)
+    if (key == name) return least;
+  return 0;
+}
+
 /// Sets the field, or says what was expected.
 std::optional<std::string> set(const ConfigField& field, const TomlValue& value) {
   if (auto* const* target = std::get_if<double*>(&field.target)) {
     const auto number = number_of(value);
-    if (!number || !std::isfinite(*number) || *number < 0.0) return "a finite number, 0 or more";
+    const bool above_zero = must_be_above_zero(field.name());
+    if (!number || !std::isfinite(*number) || *number < 0.0 || (above_zero && *number == 0.0))
+      return above_zero ? "a finite number above 0" : "a finite number, 0 or more";
     **target = *number;
     return std::nullopt;
   }
   if (auto* const* target = std::get_if<int*>(&field.target)) {
     const auto* number = std::get_if<std::int64_t>(&value);
-    if (number == nullptr || *number < 0 || *number > std::numeric_limits<int>::max())
-      return "a whole number, 0 or more";
+    const int least = least_count(field.name());
+    if (number == nullptr || *number < least || *number > std::numeric_limits<int>::max())
+      return "a whole number, " + std::to_string(least) + " or more";
     **target = static_cast<int>(*number);
     return std::nullopt;
   }

@@ -67,7 +67,8 @@ struct LoadedConfiguration {
 
 /// Reads a configuration in TOML over `base`. Errors name the line and what was expected: no
 /// TOML, an unknown table or key (with the nearest known ones), a wrong type or word, a number that
-/// is not finite or is negative, a maximum range that is not above the minimum.
+/// is not finite, negative, or less than its key can be, a maximum range that is not above the
+/// minimum.
 Result<LoadedConfiguration> read_configuration(const std::string& path,
                                                const Configuration& base = {});
 

@@ -100,13 +100,37 @@ TEST(Configuration, WrongValuesSayWhatWasExpected) {
        {"-0.1", "nan", "inf", "-inf", "\"1\"", "true", "[1]", "{a = 1}", "1979-05-27"})
     EXPECT_EQ(error_of(std::string("[scanner]\nrange_sigma_m = ") + value + "\n"),
               "c.toml:2: scanner.range_sigma_m: " + number);
-  const std::string whole = "expected a whole number, 0 or more";
+  const std::string whole = "expected a whole number, 1 or more";
   for (const char* value : {"-1", "1.0", "\"1\"", "3000000000"})
     EXPECT_EQ(error_of(std::string("[estimation]\nmax_iterations = ") + value + "\n"),
               "c.toml:2: estimation.max_iterations: " + whole);
   for (const char* value : {"\"Start\"", "\"\"", "0", "true"})
     EXPECT_EQ(error_of(std::string("[scanner]\nstamp = ") + value + "\n"),
               "c.toml:2: scanner.stamp: expected \"start\" or \"middle\" or \"end\"");
+}
+
+TEST(Configuration, SomeKeysCannotBeZero) {
+  for (const char* name :
+       {"localizer.prior_floor_m", "localizer.prior_floor_rad", "localizer.map_stretch_m",
+        "extraction.min_operator_m", "extraction.max_operator_m", "extraction.grazing_rad",
+        "extraction.min_corner_turn_rad", "extraction.corner_chi_square"}) {
+    const std::string key = name;
+    for (const char* value : {"0", "0.0", "-0.0", "-1", "nan", "\"1\""})
+      EXPECT_EQ(error_of("\n" + key + " = " + value + "\n"),
+                "c.toml:2: " + key + ": expected a finite number above 0");
+    EXPECT_EQ(error_of(key + " = 1e-9\n"), "no error") << key;
+  }
+  for (const auto& [name, least] : {std::pair{"extraction.min_line_points", 3},
+                                    {"matching.max_calls", 1},
+                                    {"matching.max_candidates", 1},
+                                    {"estimation.max_iterations", 1}}) {
+    const std::string key = name;
+    EXPECT_EQ(
+        error_of("\n" + key + " = " + std::to_string(least - 1) + "\n"),
+        "c.toml:2: " + key + ": expected a whole number, " + std::to_string(least) + " or more");
+    EXPECT_EQ(error_of(key + " = " + std::to_string(least) + "\n"), "no error") << key;
+  }
+  EXPECT_EQ(error_of("scanner.range_sigma_m = 0\nlocalizer.few_pairs = 0\n"), "no error");
 }
 
 TEST(Configuration, RangesMustLeaveRoom) {

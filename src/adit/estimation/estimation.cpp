@@ -8,6 +8,8 @@
 namespace adit {
 namespace {
 
+constexpr double kLeastScatter = 1e-6;  // exact features scatter by rounding alone
+
 struct Linearised {
   Vector2d error;
   Eigen::Matrix<double, 2, 3> jacobian;
@@ -125,7 +127,6 @@ FeatureEstimator::System FeatureEstimator::linearise(
     const Pose2& pose, const std::optional<PoseWithCovariance>& prior) const {
   System system;
   for (const Term& term : terms_) {
-    if (term.dropped) continue;
     const Linearised l = error_of(term.pair.kind, term.sensed, term.model, pose);
     const Eigen::Matrix<double, 3, 2> weighted = l.jacobian.transpose() * term.information;
     system.information.noalias() += weighted * l.jacobian;
@@ -168,20 +169,38 @@ bool FeatureEstimator::solve(const EstimationOptions& options,
   return false;
 }
 
+/// Takes the pair with the largest error beyond the gate out of those used.
 bool FeatureEstimator::drop_worst(const Pose2& pose, double gate) {
-  Term* worst = nullptr;
+  std::size_t worst = terms_.size();
   double largest = gate;
-  for (Term& term : terms_) {
-    if (term.dropped) continue;
+  for (std::size_t i = 0; i < terms_.size(); ++i) {
+    const Term& term = terms_[i];
     const Vector2d error = error_of(term.pair.kind, term.sensed, term.model, pose).error;
     const double chi_square = error.dot(term.information * error);
     if (chi_square > largest) {
       largest = chi_square;
-      worst = &term;
+      worst = i;
     }
   }
-  if (worst != nullptr) worst->dropped = true;
-  return worst != nullptr;
+  if (worst == terms_.size()) return false;
+  used_.erase(used_.begin() + static_cast<std::ptrdiff_t>(worst));
+  return true;
+}
+
+/// Weights by point count have no scale of their own: the scatter of the features about their own
+/// fit gives it. Only then can they be set against a prior.
+void FeatureEstimator::scale_to_scatter(const EstimationOptions& options,
+                                        const std::optional<PoseWithCovariance>& prior,
+                                        const Pose2& start) {
+  FeatureFit alone;
+  alone.pose = start;
+  if (!solve(options, std::nullopt, alone)) {
+    alone.pose = start;
+    solve(options, prior, alone);
+  }
+  const double freedom = std::max(1, count_errors() - 3);
+  const double scatter = linearise(alone.pose, std::nullopt).cost / freedom;
+  for (Term& term : terms_) term.information /= std::max(scatter, kLeastScatter);
 }
 
 FeatureFit FeatureEstimator::fit(const FeatureList& sensed, const FeatureList& model,
@@ -190,39 +209,44 @@ FeatureFit FeatureEstimator::fit(const FeatureList& sensed, const FeatureList& m
                                  const std::optional<PoseWithCovariance>& prior) {
   FeatureFit fit;
   fit.pose = start;
-  build_terms(sensed, model, pairs, options);
+  used_.assign(pairs.begin(), pairs.end());
+  build_terms(sensed, model, used_, options);
+  if (options.weighting == Weighting::points) scale_to_scatter(options, prior, start);
   fit.converged = solve(options, prior, fit);
-  if (options.weighting == Weighting::covariance) {
-    while (fit.converged && drop_worst(fit.pose, options.gate_chi_square)) {
-      ++fit.dropped;
-      fit.converged = solve(options, prior, fit);
-    }
+  while (options.weighting == Weighting::covariance && fit.converged &&
+         drop_worst(fit.pose, options.gate_chi_square)) {
+    ++fit.dropped;
+    build_terms(sensed, model, used_, options);
+    fit.converged = solve(options, prior, fit);
   }
-  summarise(prior, options, fit);
+  const System features = linearise(fit.pose, std::nullopt);
+  fit.used = count_sensed();
+  fit.information = features.information;
+  fit.chi_square = features.cost;
+  fit.degrees_of_freedom = std::max(0, count_errors() - 3);
+  if (fit.converged) fit.covariance = linearise(fit.pose, prior).information.inverse();
   return fit;
 }
 
-void FeatureEstimator::summarise(const std::optional<PoseWithCovariance>& prior,
-                                 const EstimationOptions& options, FeatureFit& fit) {
-  used_.clear();
+/// Error measures that tell something; a corner on a matched line has one.
+int FeatureEstimator::count_errors() const {
   int errors = 0;
   for (const Term& term : terms_) {
-    if (term.dropped) continue;
-    used_.push_back(term.pair);
     const double trace = term.information.trace();
     if (trace > 0.0) errors += term.information.determinant() > 1e-12 * trace * trace ? 2 : 1;
   }
-  const System features = linearise(fit.pose, std::nullopt);
-  fit.used = static_cast<int>(used_.size());
-  fit.information = features.information;
-  fit.chi_square = features.cost;
-  fit.degrees_of_freedom = std::max(0, errors - 3);
-  if (!fit.converged) return;
-  fit.covariance = linearise(fit.pose, prior).information.inverse();
-  if (options.weighting == Weighting::points && fit.degrees_of_freedom > 0) {
-    // Weights by point count have no scale of their own: the scatter of the fit gives it.
-    fit.covariance *= fit.chi_square / fit.degrees_of_freedom;
+  return errors;
+}
+
+/// Sensed features that tell something, each once.
+int FeatureEstimator::count_sensed() const {
+  double sensed = 0.0;
+  for (const Term& term : terms_) {
+    if (!(term.information.trace() > 0.0)) continue;
+    const bool is_line = term.pair.kind == FeatureKind::line;
+    sensed += is_line ? 1.0 / matches_of_line_[static_cast<std::size_t>(term.pair.sensed)] : 1.0;
   }
+  return static_cast<int>(std::lround(sensed));
 }
 
 }  // namespace adit

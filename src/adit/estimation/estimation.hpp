@@ -43,7 +43,7 @@ struct FeatureFit {
   Matrix3d information = Matrix3d::Zero();  ///< of the features alone, without the prior
   double chi_square = 0.0;                  ///< of the features used
   int degrees_of_freedom = 0;               ///< of the features used: errors minus three
-  int used = 0;                             ///< pairs that count in the solution
+  int used = 0;                             ///< sensed features that count in the solution
   int dropped = 0;                          ///< pairs beyond the gate
   int iterations = 0;
 };
@@ -73,7 +73,6 @@ class FeatureEstimator {
     Vector2d sensed;       // (orientation, distance) or (x, y)
     Vector2d model;        // the same of the model's feature
     Matrix2d information;  // of the error; singular where only one direction is told
-    bool dropped = false;
   };
   struct System {
     Matrix3d information = Matrix3d::Zero();
@@ -91,8 +90,10 @@ class FeatureEstimator {
   bool solve(const EstimationOptions& options, const std::optional<PoseWithCovariance>& prior,
              FeatureFit& fit) const;
   bool drop_worst(const Pose2& pose, double gate);
-  void summarise(const std::optional<PoseWithCovariance>& prior, const EstimationOptions& options,
-                 FeatureFit& fit);
+  void scale_to_scatter(const EstimationOptions& options,
+                        const std::optional<PoseWithCovariance>& prior, const Pose2& start);
+  int count_errors() const;
+  int count_sensed() const;
 
   std::vector<Term> terms_;
   std::vector<int> matches_of_line_;  // of each sensed line

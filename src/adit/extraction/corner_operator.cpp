@@ -19,9 +19,7 @@ double squared_distance(const ScanPoints& p, std::size_t i, std::size_t j) {
 }  // namespace
 
 bool is_straight(const ScanPoints& points, Stretch s, double sigmas) {
-  const double freedom = static_cast<double>(s.size()) - 2.0;
-  if (freedom < 1.0) return true;
-  return points.chi_square(s.begin, s.end) <= freedom + sigmas * std::sqrt(2.0 * freedom);
+  return points.is_straight(s.begin, s.end, sigmas);
 }
 
 BestCut descend(const ScanPoints& points, Stretch s, std::size_t start, std::size_t min_points) {
@@ -111,13 +109,11 @@ void CornerOperator::slide(const ScanPoints& points, Stretch piece, double size,
 
 /// One position of the operator. A window that one line explains well hides no smaller corner.
 void CornerOperator::apply(const ScanPoints& points, Stretch window, std::size_t at) {
-  const double one_line = points.chi_square(window.begin, window.end);
-  const double freedom = static_cast<double>(window.size()) - 2.0;
-  if (one_line < freedom + std::sqrt(2.0 * freedom)) {
-    std::fill(settled_.begin() + static_cast<std::ptrdiff_t>(window.begin),
-              settled_.begin() + static_cast<std::ptrdiff_t>(window.end), char{1});
+  if (is_straight(points, window, 1.0)) {
+    settle(window);
     return;
   }
+  const double one_line = points.chi_square(window.begin, window.end);
   responses_.push_back({at, window.begin, window.end, one_line - two_lines(points, window, at)});
 }
 
@@ -127,9 +123,9 @@ bool CornerOperator::is_taken(std::size_t point) const {
   });
 }
 
-void CornerOperator::settle(const Response& corner) {
-  std::fill(settled_.begin() + static_cast<std::ptrdiff_t>(corner.arm_begin),
-            settled_.begin() + static_cast<std::ptrdiff_t>(corner.arm_end), char{1});
+void CornerOperator::settle(Stretch window) {
+  std::fill(settled_.begin() + static_cast<std::ptrdiff_t>(window.begin),
+            settled_.begin() + static_cast<std::ptrdiff_t>(window.end), char{1});
 }
 
 void CornerOperator::accept_peaks(const ScanPoints& points, const CornerDecision& decision) {
@@ -144,7 +140,7 @@ void CornerOperator::accept_peaks(const ScanPoints& points, const CornerDecision
                       is_straight(points, {best.cut, window.end}, decision.straight_sigmas);
     if (!fits || is_taken(best.cut)) continue;
     accepted_.push_back({best.cut, window.begin, window.end, best.gain});
-    settle(accepted_.back());
+    settle(window);
   }
 }
 

@@ -45,7 +45,7 @@ class CornerOperator {
  private:
   void slide(const ScanPoints& points, Stretch piece, double size, const CornerDecision& decision);
   void apply(const ScanPoints& points, Stretch window, std::size_t at);
-  void settle(const Response& corner);
+  void settle(Stretch window);
   bool is_taken(std::size_t point) const;
   void accept_peaks(const ScanPoints& points, const CornerDecision& decision);
 

@@ -8,6 +8,12 @@
 #include "adit/extraction/wall_line.hpp"
 
 namespace adit {
+namespace {
+
+/// Two points are always straight: a line needs a third.
+int least_points(const ExtractionOptions& options) { return std::max(3, options.min_line_points); }
+
+}  // namespace
 
 const FeatureList& Extractor::extract(const LaserScan& scan, const ScannerModel& scanner,
                                       const ExtractionOptions& options) {
@@ -36,13 +42,13 @@ void Extractor::set_operator_sizes(const ExtractionOptions& options) {
 
 void Extractor::cut_into_stretches(const ExtractionOptions& options) {
   const CornerDecision decision{options.corner_chi_square, options.straight_sigmas,
-                                static_cast<std::size_t>(options.min_line_points)};
+                                static_cast<std::size_t>(least_points(options))};
   stretches_.clear();
   piece_.clear();
   const std::vector<ScanPoints::Piece>& pieces = points_.pieces();
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     const Stretch whole{pieces[p].begin, pieces[p].end};
-    if (static_cast<int>(whole.size()) < options.min_line_points) continue;
+    if (static_cast<int>(whole.size()) < least_points(options)) continue;
     cuts_.clear();
     if (!is_straight(points_, whole, options.straight_sigmas)) {
       operator_.find(points_, whole, sizes_, decision, cuts_);
@@ -55,13 +61,20 @@ void Extractor::cut_into_stretches(const ExtractionOptions& options) {
 void Extractor::fit_lines(const ExtractionOptions& options) {
   line_.clear();
   for (std::size_t s = 0; s < stretches_.size(); ++s) {
-    const CutEnds cuts{s > 0 && piece_[s - 1] == piece_[s],
-                       s + 1 < stretches_.size() && piece_[s + 1] == piece_[s]};
-    const auto line = fit_wall_line(points_, stretches_[s], options.min_line_points, cuts);
+    const CutEnds cuts{is_cut_between(s, -1), is_cut_between(s, 1)};
+    const auto line = fit_wall_line(points_, stretches_[s], least_points(options), cuts);
     const bool usable = line && line->length() >= options.min_line_m && line->distance > 0.0;
     line_.push_back(usable ? static_cast<int>(features_.lines.size()) : -1);
     if (usable) features_.lines.push_back(*line);
   }
+}
+
+/// Whether the stretch ends, after (1) or before (-1) it, at a cut inside a piece and not at a gap.
+bool Extractor::is_cut_between(std::size_t s, int step) const {
+  const std::size_t n = stretches_.size();
+  const bool at_seam = step > 0 ? s + 1 == n : s == 0;
+  if (n < 2 || (at_seam && !points_.closed())) return false;
+  return piece_[(s + n + static_cast<std::size_t>(step)) % n] == piece_[s];
 }
 
 void Extractor::join_lines(const ExtractionOptions& options) {
@@ -106,8 +119,8 @@ bool Extractor::add_corner(std::size_t s, std::size_t next, const ExtractionOpti
   const double shorter = std::min(before.length(), after.length());
   const double uncertain = std::min(3.0 * std::sqrt(corner->covariance.trace()), 0.5 * shorter);
   const double reach = uncertain + 3.0 * spacing + 2.0 * std::sqrt(points_.noise().beam_variance);
-  if ((corner->position - before.end).norm() > reach) return false;
-  if ((corner->position - after.begin).norm() > reach) return false;
+  if (!((corner->position - before.end).norm() <= reach)) return false;
+  if (!((corner->position - after.begin).norm() <= reach)) return false;
   corner->arms = {line_[s], line_[next]};
   before.end = corner->position;
   after.begin = corner->position;
@@ -127,16 +140,17 @@ void Extractor::add_edge(std::size_t s, int arm) {
   if (!points_.full_circle() && (beyond < 0 || beyond >= points_.beam_count())) return;
 
   const Line& line = features_.lines[static_cast<std::size_t>(line_[s])];
+  // A few missing beams, such as filtered mixed pixels, do not open the view.
   const std::size_t neighbour = at_end ? (last + 1) % n : (last + n - 1) % n;
-  const int wrapped = (beyond + points_.beam_count()) % points_.beam_count();
-  if (points_.beam_index(neighbour) == wrapped) {
+  const int apart =
+      at_end ? points_.beams_between(last, neighbour) : points_.beams_between(neighbour, last);
+  if (apart <= ScanPoints::kMostBeamsApart) {
     const Vector2d expected = meet(line, points_.beam(neighbour), points_.point(last));
     const double margin =
         0.1 + 4.0 * std::sqrt(points_.noise().beam_variance + points_.noise().roughness_variance);
     if (points_.range(neighbour) < expected.norm() + margin) return;
   }
-  const std::size_t beside = at_end ? s + 1 : s - 1;  // wraps below zero: no stretch
-  const bool is_cut = beside < stretches_.size() && piece_[beside] == piece_[s];
+  const bool is_cut = is_cut_between(s, step);
   const double half_step = 0.5 * std::abs(points_.beam_step());
   const Vector2d at = points_.beam(last);
   const Vector2d edge = at * std::cos(half_step) + step * std::sin(half_step) * perpendicular(at);

@@ -56,6 +56,9 @@ class Extractor {
   const FeatureList& extract(const LaserScan& scan, const ScannerModel& scanner,
                              const ExtractionOptions& options);
 
+  /// The features of the last scan; none before the first.
+  const FeatureList& features() const { return features_; }
+
   /// The points of the last scan, for pictures and tests.
   const ScanPoints& points() const { return points_; }
 
@@ -67,6 +70,7 @@ class Extractor {
   bool add_corner(std::size_t before, std::size_t after, const ExtractionOptions& options);
   void add_edge(std::size_t stretch, int arm);
   std::size_t next_line(std::size_t stretch) const;
+  bool is_cut_between(std::size_t stretch, int step) const;
 
   ScanPoints points_;
   CornerOperator operator_;

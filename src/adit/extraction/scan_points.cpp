@@ -3,15 +3,9 @@
 #include <algorithm>
 
 namespace adit {
-namespace {
 
-constexpr int kMostMissingBeams = 5;  // a longer gap is an opening, not drop-outs
-
-}  // namespace
-
-double ScanPoints::chi_square(std::size_t begin, std::size_t end) const {
+ScanPoints::LineError ScanPoints::line_error(std::size_t begin, std::size_t end) const {
   const Moments m = moments(begin, end);
-  if (m.n < 3.0) return 0.0;
   const double inverse_n = 1.0 / m.n;
   const double mx = m.x * inverse_n;
   const double my = m.y * inverse_n;
@@ -25,7 +19,30 @@ double ScanPoints::chi_square(std::size_t begin, std::size_t end) const {
   const double aligned = (a - c) * (mx * mx - my * my) + 4.0 * b * mx * my;
   const double scale = spread * range2;
   const double cos2 = scale > 0.0 ? std::clamp(0.5 * (1.0 - aligned / scale), 0.02, 1.0) : 1.0;
-  return squared_error / noise_.across(cos2, range2);
+  return {squared_error, noise_.across(cos2, range2), cos2 * range2};
+}
+
+double ScanPoints::chi_square(std::size_t begin, std::size_t end) const {
+  if (end - begin < 3) return 0.0;
+  const LineError error = line_error(begin, end);
+  return error.squared / error.variance;
+}
+
+bool ScanPoints::is_straight(std::size_t begin, std::size_t end, double sigmas) const {
+  const double freedom = static_cast<double>(end - begin) - 2.0;
+  if (freedom < 1.0) return true;
+  const LineError error = line_error(begin, end);
+  const double chi_square = error.squared / error.variance;
+  if (chi_square > freedom + sigmas * std::sqrt(2.0 * freedom)) return false;
+  // Along a long wall the incidence changes, and the noise across it: Simpson's rule over it.
+  const auto variance_at = [&](std::size_t i) {
+    const double range2 = range_[i] * range_[i];
+    return noise_.across(std::clamp(error.foot2 / range2, 0.02, 1.0), range2);
+  };
+  const double mean =
+      (variance_at(begin) + 4.0 * variance_at((begin + end) / 2) + variance_at(end - 1)) / 6.0;
+  const double expected = freedom * std::min(1.0, mean / error.variance);
+  return chi_square <= expected + sigmas * std::sqrt(2.0 * expected);
 }
 
 void ScanPoints::build(const LaserScan& scan, const ScannerModel& scanner, double roughness,
@@ -59,7 +76,7 @@ void ScanPoints::restart_at(std::size_t point) {
 }
 
 void ScanPoints::prepare_beams(const LaserScan& scan) {
-  const std::size_t n = scan.ranges.size();
+  const std::size_t n = scan.beams_of_one_turn();
   full_circle_ = scan.is_full_circle();
   if (cos_.size() == n && first_bearing_ == scan.first_bearing && step_ == scan.bearing_step)
     return;
@@ -75,11 +92,10 @@ void ScanPoints::prepare_beams(const LaserScan& scan) {
 }
 
 void ScanPoints::collect(const LaserScan& scan, const ScannerModel& scanner) {
-  const std::size_t n = scan.ranges.size();
+  const std::size_t n = cos_.size();
   for (auto* v : {&x_, &y_, &range_}) v->resize(n);
   beam_.resize(n);
-  const double longest =
-      std::min(scan.max_range > 0.0 ? scan.max_range : scanner.max_range_m, scanner.max_range_m);
+  const double longest = scanner.no_return_from(scan.max_range);
   std::size_t count = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const double r = scan.ranges[step_ < 0.0 ? n - 1 - k : k];
@@ -94,10 +110,14 @@ void ScanPoints::collect(const LaserScan& scan, const ScannerModel& scanner) {
   beam_.resize(count);
 }
 
+int ScanPoints::beams_between(std::size_t i, std::size_t j) const {
+  const int beams = beam_[j] - beam_[i];
+  return beams > 0 ? beams : beams + beam_count();
+}
+
 bool ScanPoints::joined(std::size_t i, std::size_t j) const {
-  int beams = beam_[j] - beam_[i];
-  if (beams <= 0) beams += beam_count();
-  if (beams > kMostMissingBeams + 1) return false;
+  const int beams = beams_between(i, j);
+  if (beams > kMostBeamsApart) return false;
   const double nearer = std::min(range_[i], range_[j]);
   const double limit = nearer * spacing_per_metre_ * beams + reach_of_noise_;
   const double dx = x_[j] - x_[i];

@@ -28,6 +28,9 @@ struct PointNoise {
 /// and starts at the farthest point, which lies in a corner.
 class ScanPoints {
  public:
+  /// Points farther apart than this have an opening between them, not drop-outs.
+  static constexpr int kMostBeamsApart = 6;
+
   struct Piece {
     std::size_t begin = 0;  ///< first point
     std::size_t end = 0;    ///< one past the last
@@ -54,6 +57,8 @@ class ScanPoints {
   /// Position of the beam in the counter-clockwise order of all beams.
   int beam_index(std::size_t i) const { return beam_[i]; }
   double beam_step() const { return step_; }
+  /// How many beams point j comes after point i, counter-clockwise; 1 for neighbouring beams.
+  int beams_between(std::size_t i, std::size_t j) const;
   int beam_count() const { return static_cast<int>(cos_.size()); }
   bool full_circle() const { return full_circle_; }
 
@@ -63,7 +68,18 @@ class ScanPoints {
   /// Chi-square of the points [begin, end) about their own best line.
   double chi_square(std::size_t begin, std::size_t end) const;
 
+  /// Whether that chi-square lies at most so many sigmas above what a straight wall would have.
+  bool is_straight(std::size_t begin, std::size_t end, double sigmas) const;
+
  private:
+  /// Squared distances of points from their line, the noise across it at their middle, and the
+  /// squared distance of the line from the scanner.
+  struct LineError {
+    double squared = 0.0;
+    double variance = 0.0;
+    double foot2 = 0.0;
+  };
+  LineError line_error(std::size_t begin, std::size_t end) const;
   void prepare_beams(const LaserScan& scan);
   void collect(const LaserScan& scan, const ScannerModel& scanner);
   bool joined(std::size_t i, std::size_t j) const;

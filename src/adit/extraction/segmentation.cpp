@@ -5,23 +5,58 @@
 namespace adit {
 namespace {
 
-/// Cuts the stretch at `index` while two lines gain enough; the new stretches take its place.
+/// A run of points that stands off the line of its stretch, such as a column before a wall.
+struct Bump {
+  Stretch points;
+  double gain = 0.0;  ///< chi-square that a line of its own would save at least
+};
+
+/// The run that stands off most. One cut, which leaves the run with one of its neighbours, does not
+/// show it; two at once do.
+Bump strongest_bump(const ScanPoints& points, Stretch s, std::size_t min_points) {
+  const LineFit line = fit_line(points.moments(s.begin, s.end));
+  const Vector2d normal = perpendicular(line.direction);
+  const double distance = normal.dot(line.centroid);
+  Bump best;
+  for (std::size_t width = min_points; width <= s.size() / 2; width += 1 + width / 2) {
+    for (std::size_t i = s.begin; i + width <= s.end; i += 1 + width / 8) {
+      const Moments m = points.moments(i, i + width);
+      const Vector2d middle(m.x / m.n, m.y / m.n);
+      const double off = normal.dot(middle) - distance;
+      const double range2 = middle.squaredNorm();
+      const double cos2 = std::clamp(distance * distance / range2, 0.02, 1.0);
+      const double gain = m.n * off * off / points.noise().across(cos2, range2);
+      if (gain > best.gain) best = {{i, i + width}, gain};
+    }
+  }
+  return best;
+}
+
+void cut_at(std::size_t index, std::size_t at, std::vector<Stretch>& stretches) {
+  const Stretch whole = stretches[index];
+  if (at <= whole.begin || at >= whole.end) return;
+  stretches[index].end = at;
+  stretches.insert(stretches.begin() + static_cast<std::ptrdiff_t>(index) + 1,
+                   Stretch{at, whole.end});
+}
+
+/// Cuts what is not straight while lines of their own gain enough for its parts; the new stretches
+/// take its place.
 void split(const ScanPoints& points, std::size_t index, const CornerDecision& decision,
            std::vector<Stretch>& stretches) {
   while (index < stretches.size()) {
     const Stretch whole = stretches[index];
-    if (is_straight(points, whole, decision.straight_sigmas)) {
+    const bool straight = is_straight(points, whole, decision.straight_sigmas);
+    const BestCut best = straight ? BestCut{} : search(points, whole, 2);
+    const Bump bump = straight ? Bump{} : strongest_bump(points, whole, decision.min_points);
+    if (std::max(best.gain, bump.gain) < decision.chi_square) {
       ++index;
-      continue;
+    } else if (best.gain >= bump.gain) {
+      cut_at(index, best.cut, stretches);
+    } else {
+      cut_at(index, bump.points.end, stretches);
+      cut_at(index, bump.points.begin, stretches);
     }
-    const BestCut best = search(points, whole, 2);
-    if (best.gain < decision.chi_square) {
-      ++index;
-      continue;
-    }
-    stretches[index].end = best.cut;
-    stretches.insert(stretches.begin() + static_cast<std::ptrdiff_t>(index) + 1,
-                     Stretch{best.cut, whole.end});
   }
 }
 

@@ -21,12 +21,12 @@ inline double wrap_angle(double angle) {
   return wrapped <= -kPi ? kPi : wrapped;
 }
 
-/// The same angle in [0, 2 pi).
+/// The same angle in [0, 2 pi); not-a-number and infinities come back as not-a-number.
 inline double wrap_positive(double angle) {
   const double wrapped = wrap_angle(angle);
   if (wrapped >= 0.0) return wrapped;
   const double positive = wrapped + kTwoPi;
-  return positive < kTwoPi ? positive : 0.0;
+  return positive >= kTwoPi ? 0.0 : positive;
 }
 
 /// Signed smallest turn from `from` to `to`, in (-pi, pi].

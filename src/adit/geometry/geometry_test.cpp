@@ -57,6 +57,7 @@ TEST(Angle, WrapsTheSeamToPlusPi) {
   EXPECT_DOUBLE_EQ(degrees(radians(30.0)), 30.0);
   EXPECT_TRUE(std::isnan(wrap_angle(std::nan(""))));
   EXPECT_TRUE(std::isnan(wrap_angle(INFINITY)));
+  EXPECT_TRUE(std::isnan(wrap_positive(std::nan(""))));
 }
 
 TEST(PoseWithCovariance, TheLeverArmCarriesHeadingErrorsIntoPosition) {

@@ -176,18 +176,19 @@ std::optional<double> find_range_step(const Log& log, const LaserId& laser) {
   constexpr int kFewest = 50;
   std::int64_t divisor = 0;
   int sampled = 0;
+  bool rounded = true;
   for (const LogScan& entry : log.scans) {
     if (!(entry.laser == laser)) continue;
     for (std::size_t i = 0; i < entry.scan.ranges.size() && sampled < kEnough; ++i) {
       if (!entry.scan.has_return(i) || entry.scan.ranges[i] > 1e6) continue;
       const double units = entry.scan.ranges[i] * kUnitsPerMetre;
-      if (std::abs(units - std::round(units)) > 1e-4) return std::nullopt;
+      if (std::abs(units - std::round(units)) > 1e-4) rounded = false;
       divisor = std::gcd(divisor, std::llround(units));
       ++sampled;
     }
   }
   if (sampled < kFewest) return std::nullopt;
-  return static_cast<double>(divisor) / kUnitsPerMetre;
+  return rounded ? static_cast<double>(divisor) / kUnitsPerMetre : 0.0;
 }
 
 }  // namespace adit

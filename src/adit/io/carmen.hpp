@@ -63,7 +63,8 @@ struct LogOptions {
 };
 
 /// The largest step (m, down to 0.1 mm) that all sampled ranges of a laser are multiples of: how
-/// the scanner rounds. Absent when the log holds too few ranges, or none of these steps fits.
+/// the scanner rounds. 0 when none of these steps fits: the ranges are not rounded. Absent when the
+/// log holds too few ranges to tell.
 std::optional<double> find_range_step(const Log& log, const LaserId& laser);
 
 /// Hands each scan, odometry and true pose of a CARMEN log to `sink` in the file's order; memory

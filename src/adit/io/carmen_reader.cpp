@@ -251,7 +251,7 @@ double CarmenReader::max_range(const LaserId& id, double stated) const {
                                   [&](const Laser& l) { return l.summary.laser == id; });
   if (known == lasers_.end()) return stated;
   if (stated < kUnknown) return known->finder.find(stated).value_or(stated);
-  const double above_all = std::min(1.01 * known->finder.largest(), kLargest);
+  const double above_all = std::min(1.01 * known->finder.largest(), MaxRangeFinder::kFarthest);
   return known->finder.find().value_or(std::max(ScannerModel{}.max_range_m, above_all));
 }
 

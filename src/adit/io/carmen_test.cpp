@@ -277,7 +277,26 @@ TEST(Carmen, TheStepOfTheRangesIsFound) {
   EXPECT_NEAR(find_range_step(log_of(text), {LaserKind::flaser, 1}).value_or(0.0), 0.2, 1e-12);
   EXPECT_FALSE(find_range_step(log_of(text), {LaserKind::rlaser, 1}));
   text += "FLASER 2 1.23456 3.40 0 0 0 0 0 0 1 host 1\n";
-  EXPECT_FALSE(find_range_step(log_of(text), {LaserKind::flaser, 1}));
+  EXPECT_EQ(find_range_step(log_of(text), {LaserKind::flaser, 1}), 0.0);
+}
+
+TEST(Carmen, AFewRangesShowNoStep) {
+  const LaserId laser{LaserKind::flaser, 1};
+  EXPECT_FALSE(find_range_step(log_of("FLASER 2 1.2 3.4 0 0 0 0 0 0 1 host 1\n"), laser));
+  EXPECT_FALSE(find_range_step(log_of("FLASER 2 1.23456 3.4 0 0 0 0 0 0 1 host 1\n"), laser));
+}
+
+TEST(Carmen, ReadingsBeyondAllScannersAreNoReturnAndNoMaximum) {
+  const Log log = log_of("FLASER 4 3.5 1.1e8 90.25 700 0 0 0 0 0 0 1 host 1\n");
+  const LaserScan& scan = log.scans.at(0).scan;
+  EXPECT_GT(scan.max_range, 90.25);
+  EXPECT_LT(scan.max_range, 100.0);
+  EXPECT_TRUE(scan.has_return(2));
+  EXPECT_FALSE(scan.has_return(1));
+  EXPECT_FALSE(scan.has_return(3));
+  const Log far = log_of("FLASER 3 3.5 655.3 655.4 0 0 0 0 0 0 1 host 1\n");
+  EXPECT_TRUE(far.scans.at(0).scan.has_return(1));
+  EXPECT_FALSE(far.scans.at(0).scan.has_return(2));
 }
 
 Log random_log() {

@@ -7,7 +7,6 @@ namespace adit {
 namespace {
 
 constexpr double kBinsPerMetre = 100.0;
-constexpr std::size_t kMostBins = 65536;
 constexpr double kCodesWithin = 0.02;    // of the top code: SICK's codes span 0.1 %
 constexpr std::uint32_t kPeakOver = 5;   // times the fullest of the occupied bins just below
 constexpr std::uint64_t kOverAbove = 4;  // times all that lies above it
@@ -23,11 +22,11 @@ void MaxRangeFinder::add(std::span<const double> ranges) {
   for (const double range : ranges) {
     if (!(range > 0.0) || !std::isfinite(range)) continue;
     ++total_;
-    largest_ = std::max(largest_, range);
-    if (range * kBinsPerMetre + 0.5 >= static_cast<double>(kMostBins)) {
+    if (range > kFarthest) {
       ++beyond_;
       continue;
     }
+    largest_ = std::max(largest_, range);
     const auto index = static_cast<std::size_t>(range * kBinsPerMetre + 0.5);
     if (index >= bins_.size()) bins_.resize(index + 1);
     Bin& bin = bins_[index];

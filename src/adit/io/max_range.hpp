@@ -15,6 +15,9 @@ namespace adit {
 /// lowest of them counts. Ranges over 655.36 m are taken as no return too.
 class MaxRangeFinder {
  public:
+  /// No range beyond this is a measurement (m): sixteen bits of centimetres.
+  static constexpr double kFarthest = 655.36;
+
   /// Counts the ranges of a scan (m).
   void add(std::span<const double> ranges);
 
@@ -22,7 +25,7 @@ class MaxRangeFinder {
   /// log states, and then only a code within 2 % below it counts.
   std::optional<double> find(std::optional<double> declared = std::nullopt) const;
 
-  /// Largest finite range seen (m).
+  /// Largest range seen that may be a measurement (m).
   double largest() const { return largest_; }
 
  private:

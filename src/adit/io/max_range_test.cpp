@@ -99,6 +99,15 @@ TEST(MaxRange, APartOfTheMachineInViewIsNoCode) {
   EXPECT_FALSE(finder.find());
 }
 
+TEST(MaxRange, OneReadingOfAHundredThousandKilometresIsNoMeasurement) {
+  MaxRangeFinder finder;
+  finder.add(std::vector<double>{4.0, 12.5, 1.1e8, 655.37, 31.0});
+  EXPECT_EQ(finder.largest(), 31.0);
+  finder.add(std::vector<double>{655.36});
+  EXPECT_EQ(finder.largest(), 655.36);
+  EXPECT_FALSE(finder.find());
+}
+
 TEST(MaxRange, IgnoresWhatIsNoRange) {
   MaxRangeFinder finder;
   finder.add(std::vector<double>{});

@@ -79,6 +79,7 @@ Result<Plan> read_plan(const std::string& path) {
 }
 
 Result<void> write_plan(std::span<const Segment> segments, const std::string& path) {
+  if (const auto known = check_ending(path); !known) return tl::unexpected(known.error());
   std::string text;
   for (const Segment& s : segments) {
     if (!s.is_finite()) return fail("a wall with a coordinate that is not finite", path);

@@ -28,8 +28,8 @@ Result<Plan> read_plan(const std::string& path);
 /// The same from text; `file` is the name in errors.
 Result<Plan> parse_plan(std::string_view text, const std::string& file = {});
 
-/// Writes `x1,y1,x2,y2` a line with all digits, whole or not at all. Error: a segment is not
-/// finite.
+/// Writes `x1,y1,x2,y2` a line with all digits, whole or not at all. Errors: a segment is not
+/// finite, or the ending is of a form that is not supported.
 Result<void> write_plan(std::span<const Segment> segments, const std::string& path);
 
 }  // namespace adit

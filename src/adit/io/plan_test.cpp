@@ -134,6 +134,19 @@ TEST(Plan, NeverWritesWallsThatAreNotFinite) {
   EXPECT_EQ(folder.files(), 0);
 }
 
+TEST(Plan, WritesNoFormThatItsEndingDoesNotName) {
+  const test::ScratchFolder folder;
+  const std::vector<Segment> walls = {{{0, 0}, {3, 1}}};
+  for (const char* name : {"a.dxf", "a.geojson", "a.png"}) {
+    const auto written = write_plan(walls, folder.path(name));
+    ASSERT_FALSE(written) << name;
+    EXPECT_EQ(written.error().file, folder.path(name));
+  }
+  EXPECT_EQ(folder.files(), 0);
+  for (const char* name : {"a.csv", "a.vectormap.txt", "a"})
+    EXPECT_TRUE(write_plan(walls, folder.path(name))) << name;
+}
+
 TEST(Plan, ReadsAMillionWallsQuickly) {
   std::string text;
   for (int i = 0; i < 1000000; ++i) {

@@ -7,13 +7,34 @@
 namespace adit {
 
 /// The paper's cycle, Fig. 1.
-const Estimate& Localizer::update(const LaserScan& scan, const Pose2& odom_from_vehicle) {
+const Estimate& Localizer::turn(const LaserScan& scan,
+                                const std::optional<Pose2>& odom_from_vehicle) {
   predict_pose(scan.stamp, odom_from_vehicle);
   predict_features(scan);
   extract_features(scan);
   match_features();
   estimate_pose();
   judge(scan.stamp);
+  return estimate_;
+}
+
+const Estimate& Localizer::update(const LaserScan& scan, const Pose2& odom_from_vehicle) {
+  const bool usable = odom_from_vehicle.is_finite() && scan.vehicle_from_laser.is_finite();
+  return usable ? turn(scan, odom_from_vehicle) : skip(scan.stamp);
+}
+
+const Estimate& Localizer::update(const LaserScan& scan) {
+  const std::optional<Pose2> odometry = odometry_.at(scan.stamp, settings_.localizer.max_age_s);
+  return scan.vehicle_from_laser.is_finite() ? turn(scan, odometry) : skip(scan.stamp);
+}
+
+/// Answers a scan that cannot be used from what is believed already.
+const Estimate& Localizer::skip(double stamp) {
+  predicted_ = last_;
+  match_ = MatchResult{};
+  fit_ = FeatureFit{};
+  timings_ = Timings{};
+  judge(stamp);
   return estimate_;
 }
 
@@ -38,18 +59,15 @@ void Localizer::add_odometry(const StampedPose& odom_from_vehicle) {
 
 void Localizer::add_gyro(double stamp, double heading) { gyro_.add({stamp, {0.0, 0.0, heading}}); }
 
-const Estimate& Localizer::update(const LaserScan& scan) {
-  return update(scan, odometry_.at(scan.stamp).value_or(last_odometry_.value_or(Pose2{})));
-}
-
 /// Dead reckoning from the last estimate: wheels, and the gyro's heading where there is one.
-void Localizer::predict_pose(double stamp, const Pose2& odom_from_vehicle) {
-  const std::optional<Pose2> gyro = gyro_.at(stamp);
+void Localizer::predict_pose(double stamp, const std::optional<Pose2>& odom_from_vehicle) {
+  const std::optional<Pose2> gyro = gyro_.at(stamp, settings_.localizer.max_age_s);
+  const bool has_turn = gyro && last_gyro_;
   predicted_ = last_;
   if (last_odometry_) {
-    Pose2 move = inverse(*last_odometry_) * odom_from_vehicle;
+    Pose2 move = odom_from_vehicle ? inverse(*last_odometry_) * *odom_from_vehicle : Pose2{};
     OdometryNoise noise = settings_.odometry;
-    if (gyro && last_gyro_) {
+    if (has_turn) {
       move.theta = angle_between(*last_gyro_, gyro->theta);
       noise.rotation_sigma_rad_per_m = 0.0;
       noise.rotation_sigma_ratio = 0.0;
@@ -57,8 +75,8 @@ void Localizer::predict_pose(double stamp, const Pose2& odom_from_vehicle) {
     }
     predicted_ = dead_reckon(last_, move, noise);
   }
-  last_odometry_ = odom_from_vehicle;
-  if (gyro) last_gyro_ = gyro->theta;
+  if (odom_from_vehicle) last_odometry_ = odom_from_vehicle;
+  last_gyro_ = gyro ? std::optional<double>(gyro->theta) : std::nullopt;
 }
 
 /// The map's features in sight of the predicted position.
@@ -67,16 +85,14 @@ void Localizer::predict_features(const LaserScan& scan) {
   vehicle_from_laser_ = scan.vehicle_from_laser;
   predicted_laser_ = carry(predicted_, vehicle_from_laser_);
   const Vector2d observer = predicted_laser_.pose.translation();
-  const double range =
-      std::min(settings_.scanner.max_range_m,
-               scan.max_range > 0.0 ? scan.max_range : settings_.scanner.max_range_m);
+  const double range = settings_.scanner.no_return_from(scan.max_range);
   visibility_.sweep(map_, observer, range);
   adit::predict_features(map_, visibility_, observer, settings_.prediction, model_);
 }
 
 void Localizer::extract_features(const LaserScan& scan) {
   const Stopwatch watch(timings_.extraction);
-  sensed_ = &extractor_.extract(scan, settings_.scanner, settings_.extraction);
+  extractor_.extract(scan, settings_.scanner, settings_.extraction);
 }
 
 /// Model and sensed features both in the frame of the predicted laser.
@@ -85,14 +101,15 @@ void Localizer::match_features() {
   transform(model_, {0.0, 0.0, -predicted_laser_.pose.theta}, model_in_laser_);
   const MatchingOptions tolerances =
       tolerances_from_prior(settings_.matching, floored(predicted_laser_.covariance));
-  match_ = matcher_.match(*sensed_, model_in_laser_, tolerances);
+  match_ = matcher_.match(extractor_.features(), model_in_laser_, tolerances);
 }
 
 void Localizer::estimate_pose() {
   const Stopwatch watch(timings_.estimation);
   const Pose2 start{0.0, 0.0, predicted_laser_.pose.theta};
   const PoseWithCovariance prior{start, floored(predicted_laser_.covariance)};
-  fit_ = estimator_.fit(*sensed_, model_, match_.pairs, start, settings_.estimation, prior);
+  fit_ = estimator_.fit(extractor_.features(), model_, match_.pairs, start, settings_.estimation,
+                        prior);
 }
 
 /// The predicted pose counts as no surer than the floors, in any direction.
@@ -147,6 +164,7 @@ void Localizer::judge(double stamp) {
   estimate_.covariance = last_.covariance + shared_map_error();
   estimate_.status = believed ? Status::ok : Status::lost;
   estimate_.dead_reckoned = !believed;
+  if (!believed) return;
   estimate_.chi_square = fit_.chi_square;
   estimate_.degrees_of_freedom = fit_.degrees_of_freedom;
   estimate_.pairs = estimator_.pairs_used();

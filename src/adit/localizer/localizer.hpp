@@ -22,6 +22,7 @@ struct LocalizerOptions {
   double start_sigma_m = 0.25;
   double start_sigma_rad = 0.07;
   double gyro_sigma_rad = 0.002;
+  double max_age_s = 0.5;
   double prior_floor_m = 0.02;
   double prior_floor_rad = 0.004;
   double gate_chi_square = 60.0;
@@ -38,6 +39,8 @@ struct LocalizerOptions {
     field(
         "gyro_sigma_rad", self.gyro_sigma_rad,
         "sigma of the turn between two scans by the gyro (rad); the paper's steps of 0.25 degrees");
+    field("max_age_s", self.max_age_s,
+          "odometry or gyro fed longer before or after the scan than this is not used for it (s)");
     field(
         "prior_floor_m", self.prior_floor_m,
         "the predicted pose counts as no surer than this (m): the map's errors that one scan sees "
@@ -79,6 +82,9 @@ struct LocalizerSettings {
 class Localizer {
  public:
   Localizer(const LineMap& map, const LocalizerSettings& settings);
+  Localizer(LineMap&& map, const LocalizerSettings& settings) = delete;
+  Localizer(const Localizer&) = delete;  // estimates view its buffers
+  Localizer& operator=(const Localizer&) = delete;
 
   /// Says where the vehicle is at the next scan, and how surely (default: the start sigmas).
   void start(const Pose2& map_from_vehicle,
@@ -90,10 +96,12 @@ class Localizer {
   /// Feeds a gyro's heading (rad) at a stamp; its differences replace the odometry's rotation.
   void add_gyro(double stamp, double heading);
 
-  /// One turn of the cycle, with dead reckoning taken from what was fed, at the scan's stamp.
+  /// One turn of the cycle, with dead reckoning taken from what was fed, at the scan's stamp; with
+  /// none near it the vehicle is taken to have stood still.
   const Estimate& update(const LaserScan& scan);
 
-  /// One turn of the cycle, with the odometry pose that came with the scan.
+  /// One turn of the cycle, with the odometry pose that came with the scan. A pose or a mounting
+  /// that is not finite makes the scan unusable: it is answered `lost`, and the next one as ever.
   const Estimate& update(const LaserScan& scan, const Pose2& odom_from_vehicle);
 
   const Estimate& estimate() const { return estimate_; }
@@ -102,7 +110,7 @@ class Localizer {
   /// predicted position of the laser, in the map's axes; sensed ones are in the laser's frame.
   const PoseWithCovariance& predicted() const { return predicted_; }
   const FeatureList& model_features() const { return model_; }
-  const FeatureList& sensed_features() const { return *sensed_; }
+  const FeatureList& sensed_features() const { return extractor_.features(); }
   const MatchResult& match() const { return match_; }
   const FeatureFit& fit() const { return fit_; }
   const Visibility& visibility() const { return visibility_; }
@@ -110,7 +118,9 @@ class Localizer {
   const Timings& timings() const { return timings_; }
 
  private:
-  void predict_pose(double stamp, const Pose2& odom_from_vehicle);
+  const Estimate& turn(const LaserScan& scan, const std::optional<Pose2>& odom_from_vehicle);
+  const Estimate& skip(double stamp);
+  void predict_pose(double stamp, const std::optional<Pose2>& odom_from_vehicle);
   void predict_features(const LaserScan& scan);
   void extract_features(const LaserScan& scan);
   void match_features();
@@ -138,7 +148,6 @@ class Localizer {
   FeatureEstimator estimator_;
   FeatureList model_;
   FeatureList model_in_laser_;
-  const FeatureList* sensed_ = nullptr;
   MatchResult match_;
   FeatureFit fit_;
   Timings timings_;

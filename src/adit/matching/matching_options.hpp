@@ -39,8 +39,12 @@ struct MatchingOptions {
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
-    field("angerr", self.angerr, "largest heading error of the predicted pose (rad)");
-    field("poserr", self.poserr, "largest position error of the predicted pose (m)");
+    field(
+        "angerr", self.angerr,
+        "paper: largest heading error of the predicted pose (rad); clique takes it from the prior");
+    field(
+        "poserr", self.poserr,
+        "paper: largest position error of the predicted pose (m); clique takes it from the prior");
     field("concerr", self.concerr, "tolerance of a corner's concave angle (rad)");
     field("disterr", self.disterr, "paper: tolerance of a line's perpendicular distance (m)");
     field("terndisterr", self.terndisterr,

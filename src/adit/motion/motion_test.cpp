@@ -46,15 +46,18 @@ TEST(DeadReckoning, AStandingMachineKeepsItsFloors) {
 
 TEST(PoseHistory, InterpolatesBetweenAndHoldsBeyond) {
   PoseHistory history;
-  EXPECT_FALSE(history.at(0.0).has_value());
+  EXPECT_FALSE(history.at(0.0, 1.0).has_value());
   history.add({1.0, {0, 0, 3.0}});
   history.add({2.0, {2, 4, -3.0}});
-  const Pose2 middle = *history.at(1.5);
+  const Pose2 middle = *history.at(1.5, 0.0);
   EXPECT_NEAR(middle.x, 1.0, 1e-12);
   EXPECT_NEAR(middle.y, 2.0, 1e-12);
   EXPECT_NEAR(std::abs(middle.theta), kPi, 1e-12);  // through the seam, the smaller turn
-  EXPECT_EQ(history.at(0.5)->x, 0.0);
-  EXPECT_EQ(history.at(9.0)->x, 2.0);
+  EXPECT_EQ(history.at(0.5, 1.0)->x, 0.0);
+  EXPECT_EQ(history.at(9.0, 8.0)->x, 2.0);
+  EXPECT_FALSE(history.at(9.0, 1.0).has_value());
+  EXPECT_FALSE(history.at(0.5, 0.1).has_value());
+  EXPECT_FALSE(history.at(std::nan(""), 1.0).has_value());
 }
 
 TEST(PoseHistory, SortsLatePosesReplacesEqualStampsAndStaysBounded) {
@@ -64,10 +67,10 @@ TEST(PoseHistory, SortsLatePosesReplacesEqualStampsAndStaysBounded) {
   history.add({2.0, {5, 0, 0}});
   history.add({2.0, {2, 0, 0}});
   EXPECT_EQ(history.size(), 3u);
-  EXPECT_NEAR(history.at(2.5)->x, 2.5, 1e-12);
+  EXPECT_NEAR(history.at(2.5, 0.0)->x, 2.5, 1e-12);
   for (int i = 0; i < 100; ++i) history.add({10.0 + i, {10.0 + i, 0, 0}});
   EXPECT_LE(history.size(), 8u);
-  EXPECT_NEAR(history.at(108.5)->x, 108.5, 1e-12);
+  EXPECT_NEAR(history.at(108.5, 0.0)->x, 108.5, 1e-12);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@ PoseHistory::PoseHistory(std::size_t capacity) : capacity_(std::max<std::size_t>
 }
 
 void PoseHistory::add(const StampedPose& pose) {
+  if (!std::isfinite(pose.stamp) || !pose.pose.is_finite()) return;
   const auto place =
       std::lower_bound(poses_.begin(), poses_.end(), pose.stamp,
                        [](const StampedPose& p, double stamp) { return p.stamp < stamp; });
@@ -23,8 +24,10 @@ void PoseHistory::add(const StampedPose& pose) {
   }
 }
 
-std::optional<Pose2> PoseHistory::at(double stamp) const {
+std::optional<Pose2> PoseHistory::at(double stamp, double max_age_s) const {
   if (poses_.empty()) return std::nullopt;
+  if (!(stamp <= poses_.back().stamp + max_age_s)) return std::nullopt;
+  if (!(stamp >= poses_.front().stamp - max_age_s)) return std::nullopt;
   const auto after =
       std::lower_bound(poses_.begin(), poses_.end(), stamp,
                        [](const StampedPose& p, double time) { return p.stamp < time; });

@@ -10,7 +10,7 @@ namespace adit {
 /// The last stamped poses, in order of time, and the pose at any time between them.
 ///
 /// Keeps a fixed number of poses. A pose that is not newer than the newest is sorted into its
-/// place; one with the stamp of another replaces it.
+/// place; one with the stamp of another replaces it; one that is not finite is ignored.
 class PoseHistory {
  public:
   explicit PoseHistory(std::size_t capacity = 1024);
@@ -21,8 +21,9 @@ class PoseHistory {
   std::size_t size() const { return poses_.size(); }
 
   /// The pose at a time: interpolated (translation linearly, heading along the smaller turn), or
-  /// the first or last pose where the time lies before or after all. Absent when nothing was added.
-  std::optional<Pose2> at(double stamp) const;
+  /// the first or last pose where the time lies before or after all by no more than `max_age_s`.
+  /// Absent otherwise.
+  std::optional<Pose2> at(double stamp, double max_age_s) const;
 
  private:
   std::size_t capacity_;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adit/plot/figures.hpp"
+#include "adit/plot/painter.hpp"
+
 namespace adit {
 namespace {
 
@@ -112,6 +115,10 @@ std::vector<Vector2d> translations(std::span<const Pose2> poses) {
   places.reserve(poses.size());
   for (const Pose2& pose : poses) places.push_back(pose.translation());
   return places;
+}
+
+Result<void> check_picture_name(const std::string& path) {
+  return picture_format(path).map([](PictureFormat) {});
 }
 
 }  // namespace adit

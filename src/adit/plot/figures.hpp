@@ -23,6 +23,9 @@
 // walls in metres in the map frame. Empty inputs give pictures without the parts that they lack.
 namespace adit {
 
+/// Whether a picture can have this name: an Error for an ending that is none of the formats'.
+Result<void> check_picture_name(const std::string& path);
+
 /// The walls of a map as a plan to draw.
 std::vector<Segment> plan_of(const LineMap& map);
 

@@ -26,10 +26,15 @@ struct LaserScan {
   bool has_return(std::size_t beam) const {
     return ranges[beam] > 0.0 && ranges[beam] < max_range;  // false for not-a-number
   }
-  /// Whether the last beam is followed by the first one: a full circle, within half a step.
+  /// Whether the beams go all the way round, within half a step. The last may repeat the first.
   bool is_full_circle() const {
-    return std::abs(std::abs(bearing_step) * static_cast<double>(ranges.size()) - kTwoPi) <
-           0.5 * std::abs(bearing_step);
+    return std::abs(bearing_step) * (static_cast<double>(ranges.size()) + 0.5) > kTwoPi;
+  }
+  /// The beams of one turn, from the first: those that repeat it are not counted.
+  std::size_t beams_of_one_turn() const {
+    const double turn = kTwoPi / std::abs(bearing_step) + 0.5;
+    return static_cast<double>(ranges.size()) > turn ? static_cast<std::size_t>(turn)
+                                                     : ranges.size();
   }
 };
 

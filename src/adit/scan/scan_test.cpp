@@ -30,8 +30,13 @@ TEST(LaserScan, ACircleClosesWhenTheNextBeamWouldBeTheFirst) {
   EXPECT_TRUE(scan.is_full_circle());
   scan.bearing_step = -scan.bearing_step;
   EXPECT_TRUE(scan.is_full_circle());
-  scan.ranges.pop_back();
+  EXPECT_EQ(scan.beams_of_one_turn(), 1000u);
+  scan.ranges.push_back(1.0);  // the last beam repeats the first, as in -pi to pi inclusive
+  EXPECT_TRUE(scan.is_full_circle());
+  EXPECT_EQ(scan.beams_of_one_turn(), 1000u);
+  scan.ranges.resize(999);
   EXPECT_FALSE(scan.is_full_circle());
+  EXPECT_EQ(scan.beams_of_one_turn(), 999u);
   scan.ranges.assign(180, 1.0);
   scan.bearing_step = radians(1.0);
   EXPECT_FALSE(scan.is_full_circle());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace adit {
@@ -16,6 +17,12 @@ struct ScannerModel {
   double min_range_m = 0.05;
   double sweep_s = 0.0;
   SweepMoment stamp = SweepMoment::start;
+
+  /// The range from which a scan has no returns: its own maximum, where it states one (above zero),
+  /// but no more than the scanner's (m).
+  double no_return_from(double max_range_of_scan) const {
+    return max_range_of_scan > 0.0 ? std::min(max_range_of_scan, max_range_m) : max_range_m;
+  }
 
   /// Standard deviation of one range along the beam: noise and rounding together (m).
   double beam_sigma_m() const {

@@ -1,7 +1,9 @@
 #include "adit/simulation/world.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace adit {
 namespace {
@@ -48,6 +50,23 @@ std::vector<Segment> outline(std::span<const Vector2d> points) {
     closed.push_back({points[i], points[(i + 1) % points.size()]});
   }
   return closed;
+}
+
+double plan_error(const World& world) {
+  if (world.walls.empty() || world.plan.empty()) return 0.0;
+  const auto same = [](const Segment& s, const Segment& t) { return s.a == t.a && s.b == t.b; };
+  if (std::equal(world.walls.begin(), world.walls.end(), world.plan.begin(), world.plan.end(),
+                 same))
+    return 0.0;
+  double sum = 0.0;
+  for (const Segment& wall : world.walls) {
+    const Vector2d middle = 0.5 * (wall.a + wall.b);
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Segment& planned : world.plan)
+      nearest = std::min(nearest, distance(planned, middle));
+    sum += nearest * nearest;
+  }
+  return std::sqrt(sum / static_cast<double>(world.walls.size()));
 }
 
 World from_plan(std::vector<Segment> segments) {

@@ -37,6 +37,10 @@ std::vector<Segment> outline(std::span<const Vector2d> points);
 /// A world whose walls are exactly the plan's. The path is left to the caller.
 World from_plan(std::vector<Segment> segments);
 
+/// How far the walls stand from the plan: RMS distance of their midpoints from it (m), what a
+/// surveyor would state. 0 where plan and walls are the same segments, or one of them is empty.
+double plan_error(const World& world);
+
 /// The corridor mockup of the paper's section IV-D: 29 segments, 6 m corridors around one pillar,
 /// about 20 x 30 m, four 0.4 m columns on the left concrete wall; its path is `mockup_path`.
 ///

@@ -66,6 +66,22 @@ double roughness(const World& world) {
   return std::sqrt(squares / count);
 }
 
+TEST(PlanError, IsTheDistanceOfTheWallsAndNotOfTheirCounts) {
+  const std::vector<Segment> room = outline(std::vector<Vector2d>{{0, 0}, {8, 0}, {8, 5}, {0, 5}});
+  World world = from_plan(room);
+  EXPECT_EQ(plan_error(world), 0.0);
+  EXPECT_EQ(plan_error({}), 0.0);
+  // as many walls, two of the four 0.2 m further out
+  world.walls = outline(std::vector<Vector2d>{{-0.2, 0}, {8.2, 0}, {8.2, 5}, {-0.2, 5}});
+  EXPECT_NEAR(plan_error(world), std::sqrt(2 * 0.2 * 0.2 / 4), 1e-12);
+  // more walls, all of them on the plan
+  world.walls = room;
+  world.walls.front().b = {4, 0};
+  world.walls.push_back({{4, 0}, {8, 0}});
+  EXPECT_NEAR(plan_error(world), 0.0, 1e-12);
+  EXPECT_NEAR(plan_error(panel({}, 3)), roughness(panel({}, 3)), 0.1);
+}
+
 TEST(Mockup, HasTheTwentyNineSegmentsOfThePaper) {
   const World world = mockup();
   EXPECT_EQ(world.plan.size(), 29u);

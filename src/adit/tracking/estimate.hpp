@@ -10,7 +10,7 @@ namespace adit {
 
 /// May the pose be trusted?
 enum class Status {
-  ok,         ///< the scan fixes the pose
+  ok,         ///< the scan agrees with the pose; what it does not show is dead reckoning
   degraded,   ///< a direction of the pose comes from dead reckoning alone
   ambiguous,  ///< more than one pose explains the scan
   lost,       ///< no pose near the prediction explains the scan: the pose is dead reckoning

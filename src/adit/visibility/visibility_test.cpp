@@ -71,14 +71,15 @@ void expect_intervals(const Sight& sight, std::span<const VisibleInterval> inter
   }
 }
 
-/// Compares a sweep with casting: its intervals, and single beams at, beside and between all wall
+/// Compares a sweep with casting: its intervals, and single beams at, beside and between wall
 /// ends.
 void expect_right(const Sight& sight, Visibility& visibility) {
   visibility.sweep(sight.map, sight.observer, sight.max_range);
   expect_intervals(sight, visibility.intervals());
   std::vector<double> bearings{0.0, 1.0, 2.0, kPi, -kPi, -1.0};
-  for (const Vector2d& vertex : sight.map.vertices()) {
-    const double bearing = bearing_of(vertex - sight.observer);
+  const std::span<const Vector2d> vertices = sight.map.vertices();
+  for (std::size_t i = 0; i < vertices.size(); i += 1 + vertices.size() / 25) {
+    const double bearing = bearing_of(vertices[i] - sight.observer);
     for (const double nudge : {0.0, -1e-5, 1e-5, 0.1}) bearings.push_back(bearing + nudge);
   }
   for (const double bearing : bearings) {
