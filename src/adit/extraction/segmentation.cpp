@@ -8,7 +8,7 @@ namespace {
 /// A run of points that stands off the line of its stretch, such as a column before a wall.
 struct Bump {
   Stretch points;
-  double gain = 0.0;  ///< chi-square that a line of its own would save at least
+  double gain = 0.0;  ///< chi-square that three lines save over one
 };
 
 /// The run that stands off most. One cut, which leaves the run with one of its neighbours, does not
@@ -28,6 +28,11 @@ Bump strongest_bump(const ScanPoints& points, Stretch s, std::size_t min_points)
       const double gain = m.n * off * off / points.noise().across(cos2, range2);
       if (gain > best.gain) best = {{i, i + width}, gain};
     }
+  }
+  if (best.gain > 0.0) {
+    best.gain = points.chi_square(s.begin, s.end) - points.chi_square(s.begin, best.points.begin) -
+                points.chi_square(best.points.begin, best.points.end) -
+                points.chi_square(best.points.end, s.end);
   }
   return best;
 }
@@ -49,9 +54,10 @@ void split(const ScanPoints& points, std::size_t index, const CornerDecision& de
     const bool straight = is_straight(points, whole, decision.straight_sigmas);
     const BestCut best = straight ? BestCut{} : search(points, whole, 2);
     const Bump bump = straight ? Bump{} : strongest_bump(points, whole, decision.min_points);
-    if (std::max(best.gain, bump.gain) < decision.chi_square) {
+    const double two_cuts = bump.gain - 0.5 * decision.chi_square;  // a second cut has its price
+    if (std::max(best.gain, two_cuts) < decision.chi_square) {
       ++index;
-    } else if (best.gain >= bump.gain) {
+    } else if (best.gain >= two_cuts) {
       cut_at(index, best.cut, stretches);
     } else {
       cut_at(index, bump.points.end, stretches);
