@@ -70,11 +70,11 @@ void Extractor::fit_lines(const ExtractionOptions& options) {
 }
 
 /// Whether the stretch ends, after (1) or before (-1) it, at a cut inside a piece and not at a gap.
-bool Extractor::is_cut_between(std::size_t s, int step) const {
+bool Extractor::is_cut_between(std::size_t stretch, int step) const {
   const std::size_t n = stretches_.size();
-  const bool at_seam = step > 0 ? s + 1 == n : s == 0;
+  const bool at_seam = step > 0 ? stretch + 1 == n : stretch == 0;
   if (n < 2 || (at_seam && !points_.closed())) return false;
-  return piece_[(s + n + static_cast<std::size_t>(step)) % n] == piece_[s];
+  return piece_[(stretch + n + static_cast<std::size_t>(step)) % n] == piece_[stretch];
 }
 
 void Extractor::join_lines(const ExtractionOptions& options) {
@@ -95,22 +95,23 @@ void Extractor::join_lines(const ExtractionOptions& options) {
 
 /// The next stretch of the same piece that has a line, at most a few stray points away; the stretch
 /// itself where there is none. In a closed contour the first follows the last.
-std::size_t Extractor::next_line(std::size_t s) const {
+std::size_t Extractor::next_line(std::size_t stretch) const {
   constexpr std::size_t kStrayPoints = 3;
   std::size_t stray = 0;
   for (std::size_t k = 1; k < stretches_.size(); ++k) {
-    const std::size_t next = (s + k) % stretches_.size();
-    if (next < s && !points_.closed()) return s;
-    if (piece_[next] != piece_[s]) return s;
+    const std::size_t next = (stretch + k) % stretches_.size();
+    if (next < stretch && !points_.closed()) return stretch;
+    if (piece_[next] != piece_[stretch]) return stretch;
     if (line_[next] >= 0) return next;
     stray += stretches_[next].size();
-    if (stray > kStrayPoints) return s;
+    if (stray > kStrayPoints) return stretch;
   }
-  return s;
+  return stretch;
 }
 
-bool Extractor::add_corner(std::size_t s, std::size_t next, const ExtractionOptions& options) {
-  Line& before = features_.lines[static_cast<std::size_t>(line_[s])];
+bool Extractor::add_corner(std::size_t stretch, std::size_t next,
+                           const ExtractionOptions& options) {
+  Line& before = features_.lines[static_cast<std::size_t>(line_[stretch])];
   Line& after = features_.lines[static_cast<std::size_t>(line_[next])];
   std::optional<Corner> corner = intersect(before, after, options.min_corner_turn_rad);
   if (!corner) return false;
@@ -121,7 +122,7 @@ bool Extractor::add_corner(std::size_t s, std::size_t next, const ExtractionOpti
   const double reach = uncertain + 3.0 * spacing + 2.0 * std::sqrt(points_.noise().beam_variance);
   if (!((corner->position - before.end).norm() <= reach)) return false;
   if (!((corner->position - after.begin).norm() <= reach)) return false;
-  corner->arms = {line_[s], line_[next]};
+  corner->arms = {line_[stretch], line_[next]};
   before.end = corner->position;
   after.begin = corner->position;
   features_.corners.push_back(*corner);
@@ -129,17 +130,17 @@ bool Extractor::add_corner(std::size_t s, std::size_t next, const ExtractionOpti
 }
 
 /// Adds the occluding corner at one end of a stretch's line, if the view goes on behind it there.
-void Extractor::add_edge(std::size_t s, int arm) {
+void Extractor::add_edge(std::size_t stretch, int arm) {
   const bool at_end = arm == 0;
-  const Stretch& stretch = stretches_[s];
+  const Stretch& points = stretches_[stretch];
   const std::size_t n = points_.size();
-  const std::size_t last = at_end ? stretch.end - 1 : stretch.begin;
+  const std::size_t last = at_end ? points.end - 1 : points.begin;
   const int step = at_end ? 1 : -1;
   const int beam = points_.beam_index(last);
   const int beyond = beam + step;
   if (!points_.full_circle() && (beyond < 0 || beyond >= points_.beam_count())) return;
 
-  const Line& line = features_.lines[static_cast<std::size_t>(line_[s])];
+  const Line& line = features_.lines[static_cast<std::size_t>(line_[stretch])];
   // A few missing beams, such as filtered mixed pixels, do not open the view.
   const std::size_t neighbour = at_end ? (last + 1) % n : (last + n - 1) % n;
   const int apart =
@@ -150,7 +151,7 @@ void Extractor::add_edge(std::size_t s, int arm) {
         0.1 + 4.0 * std::sqrt(points_.noise().beam_variance + points_.noise().roughness_variance);
     if (points_.range(neighbour) < expected.norm() + margin) return;
   }
-  const bool is_cut = is_cut_between(s, step);
+  const bool is_cut = is_cut_between(stretch, step);
   const double half_step = 0.5 * std::abs(points_.beam_step());
   const Vector2d at = points_.beam(last);
   const Vector2d edge = at * std::cos(half_step) + step * std::sin(half_step) * perpendicular(at);
@@ -162,7 +163,7 @@ void Extractor::add_edge(std::size_t s, int arm) {
              : 0.0;
   const double sigma = std::hypot(in_gap, at_cut);
   Corner corner = occluding_corner(line, arm, edge, sigma);
-  corner.arms[static_cast<std::size_t>(arm)] = line_[s];
+  corner.arms[static_cast<std::size_t>(arm)] = line_[stretch];
   features_.corners.push_back(corner);
 }
 

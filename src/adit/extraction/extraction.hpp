@@ -67,7 +67,7 @@ class Extractor {
   void cut_into_stretches(const ExtractionOptions& options);
   void fit_lines(const ExtractionOptions& options);
   void join_lines(const ExtractionOptions& options);
-  bool add_corner(std::size_t before, std::size_t after, const ExtractionOptions& options);
+  bool add_corner(std::size_t stretch, std::size_t next, const ExtractionOptions& options);
   void add_edge(std::size_t stretch, int arm);
   std::size_t next_line(std::size_t stretch) const;
   bool is_cut_between(std::size_t stretch, int step) const;

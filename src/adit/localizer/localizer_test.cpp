@@ -176,6 +176,44 @@ TEST_F(LocalizerTest, RecoversAfterScansThatCannotBeUsed) {
   }
 }
 
+TEST_F(LocalizerTest, OddOdometryAndMountingsCostTheirScanAndNoOther) {
+  Localizer localizer(map, settings());
+  localizer.start(rough_guess(drive.truth[0]));
+  const double nan = std::nan("");
+  for (std::size_t i = 0; i < drive.scans.size(); ++i) {
+    LaserScan scan = drive.scans[i];
+    Pose2 odometry = drive.odometry[i];
+    if (i == 3) odometry.x = nan;
+    if (i == 5) scan.vehicle_from_laser.theta = nan;
+    const Estimate& e = localizer.update(scan, odometry);
+    const bool odd = i == 3 || i == 5;
+    EXPECT_EQ(e.status, odd ? Status::lost : Status::ok) << i;
+    EXPECT_EQ(e.pairs.empty(), odd) << i;
+    EXPECT_TRUE(e.pose.is_finite() && e.covariance.allFinite()) << i;
+    if (!odd) {
+      EXPECT_LT(position_error(e.pose, drive.truth[i]), 0.01) << i;
+    }
+  }
+}
+
+TEST_F(LocalizerTest, AGyroThatFallsSilentLeavesTheTurnToTheWheels) {
+  Localizer localizer(map, settings());
+  localizer.start(rough_guess(drive.truth[0]));
+  localizer.add_gyro(drive.scans[0].stamp, 0.0);
+  localizer.add_gyro(drive.scans[1].stamp, 0.0);
+  double heading = 0.0;
+  for (std::size_t i = 0; i < drive.scans.size(); ++i) {
+    LaserScan late = drive.scans[i];
+    late.stamp += 100.0;  // long after the gyro's last word
+    localizer.update(late, drive.odometry[i]);
+    const Pose2 move = i > 0 ? inverse(drive.odometry[i - 1]) * drive.odometry[i] : Pose2{};
+    if (i > 0) {
+      EXPECT_NEAR(angle_between(heading, localizer.predicted().pose.theta), move.theta, 1e-9) << i;
+    }
+    heading = localizer.estimate().pose.theta;
+  }
+}
+
 TEST_F(LocalizerTest, AScanOfAnotherPlaceIsRefused) {
   const std::vector<Segment> triangle = {{{0, 0}, {12, 1}}, {{12, 1}, {3, 13}}, {{3, 13}, {0, 0}}};
   const LineMap elsewhere = LineMap::build(triangle);

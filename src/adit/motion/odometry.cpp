@@ -2,32 +2,33 @@
 
 namespace adit {
 
-Matrix3d move_covariance(const Pose2& move, const OdometryNoise& noise) {
-  const double metres = move.translation().norm();
+Matrix3d move_covariance(const Pose2& from_to, const OdometryNoise& noise) {
+  const double metres = from_to.translation().norm();
   const double translation = noise.translation_sigma_ratio * metres + noise.translation_floor_m;
   const double rotation = noise.rotation_sigma_rad_per_m * metres +
-                          noise.rotation_sigma_ratio * std::abs(move.theta) +
+                          noise.rotation_sigma_ratio * std::abs(from_to.theta) +
                           noise.rotation_floor_rad;
   // The heading errs somewhere along the way: half of it acts on the translation (trapezium rule).
   Matrix3d from_error = Matrix3d::Identity();
-  from_error(0, 2) = -0.5 * move.y;
-  from_error(1, 2) = 0.5 * move.x;
+  from_error(0, 2) = -0.5 * from_to.y;
+  from_error(1, 2) = 0.5 * from_to.x;
   const Vector3d variance(translation * translation, translation * translation,
                           rotation * rotation);
   return from_error * variance.asDiagonal() * from_error.transpose();
 }
 
-PoseWithCovariance dead_reckon(const PoseWithCovariance& start, const Pose2& move,
+PoseWithCovariance dead_reckon(const PoseWithCovariance& map_from_vehicle, const Pose2& move,
                                const OdometryNoise& noise) {
-  const Vector2d carried = RigidTransform(start.pose).direction(move.translation());
+  const Vector2d carried = RigidTransform(map_from_vehicle.pose).direction(move.translation());
   Matrix3d from_start = Matrix3d::Identity();
   from_start(0, 2) = -carried.y();
   from_start(1, 2) = carried.x();
   Matrix3d rotation = Matrix3d::Identity();
-  const Vector2d axis = unit_vector(start.pose.theta);
+  const Vector2d axis = unit_vector(map_from_vehicle.pose.theta);
   rotation.topLeftCorner<2, 2>() << axis.x(), -axis.y(), axis.y(), axis.x();
-  return {start.pose * move, from_start * start.covariance * from_start.transpose() +
-                                 rotation * move_covariance(move, noise) * rotation.transpose()};
+  return {map_from_vehicle.pose * move,
+          from_start * map_from_vehicle.covariance * from_start.transpose() +
+              rotation * move_covariance(move, noise) * rotation.transpose()};
 }
 
 }  // namespace adit
