@@ -51,6 +51,27 @@ Vector3d difference(const Pose2& a, const Pose2& b) {
   return {a.x - b.x, a.y - b.y, wrap_angle(a.theta - b.theta)};
 }
 
+/// Covariance of a line's errors: its points' noise, and the map's line off and turned by
+/// independent errors of its two ends, as this piece of it sees them.
+Matrix2d line_covariance(const Line& sensed, const Line& model, double map_sigma) {
+  Matrix2d covariance = sensed.covariance;
+  if (map_sigma <= 0.0) return covariance;
+  const double variance = map_sigma * map_sigma;
+  const double length = std::max(sensed.length(), 0.5 * model.length());
+  const double middle =
+      perpendicular(unit_vector(sensed.orientation)).dot(0.5 * (sensed.begin + sensed.end));
+  const double turn = 4.0 * variance / (length * length);
+  covariance(0, 0) += turn;
+  covariance(0, 1) += turn * middle;
+  covariance(1, 0) += turn * middle;
+  covariance(1, 1) += variance + turn * middle * middle;
+  return covariance;
+}
+
+Matrix2d corner_covariance(const Corner& sensed, double map_sigma) {
+  return sensed.covariance + Matrix2d::Identity() * (map_sigma * map_sigma);
+}
+
 bool well_conditioned(const Matrix3d& information) {
   const Eigen::LDLT<Matrix3d> factor(information);
   const Vector3d d = factor.vectorD();
@@ -58,25 +79,6 @@ bool well_conditioned(const Matrix3d& information) {
 }
 
 }  // namespace
-
-Matrix2d FeatureEstimator::line_information(const Line& sensed, const Line& model, int shared,
-                                            const EstimationOptions& options) const {
-  if (options.weighting == Weighting::points) return Matrix2d::Identity() * sensed.points;
-  Matrix2d covariance = sensed.covariance;
-  if (options.map_sigma_m > 0.0) {
-    // The map's line may be off and turned: independent errors of its two ends, seen by this piece.
-    const double variance = options.map_sigma_m * options.map_sigma_m;
-    const double length = std::max(sensed.length(), 0.5 * model.length());
-    const double middle =
-        perpendicular(unit_vector(sensed.orientation)).dot(0.5 * (sensed.begin + sensed.end));
-    const double turn = 4.0 * variance / (length * length);
-    covariance(0, 0) += turn;
-    covariance(0, 1) += turn * middle;
-    covariance(1, 0) += turn * middle;
-    covariance(1, 1) += variance + turn * middle * middle;
-  }
-  return covariance.inverse() / shared;
-}
 
 /// What the corner tells beyond the matched lines through it.
 Matrix2d FeatureEstimator::corner_information(const Corner& sensed, const FeatureList& list,
@@ -88,8 +90,7 @@ Matrix2d FeatureEstimator::corner_information(const Corner& sensed, const Featur
   const bool first = is_matched(sensed.arms[0]);
   const bool second = is_matched(sensed.arms[1]);
   if (first && second) return Matrix2d::Zero();
-  const Matrix2d covariance =
-      sensed.covariance + Matrix2d::Identity() * (options.map_sigma_m * options.map_sigma_m);
+  const Matrix2d covariance = corner_covariance(sensed, options.map_sigma_m);
   if (!first && !second) return covariance.inverse();
   const int arm = sensed.arms[first ? 0 : 1];
   const Line& line = list.lines[static_cast<std::size_t>(arm)];
@@ -104,22 +105,29 @@ void FeatureEstimator::build_terms(const FeatureList& sensed, const FeatureList&
   for (const FeaturePair& pair : pairs) {
     if (pair.kind == FeatureKind::line) ++matches_of_line_[static_cast<std::size_t>(pair.sensed)];
   }
+  const bool by_points = options.weighting == Weighting::points;
   terms_.clear();
   for (const FeaturePair& pair : pairs) {
     const auto i = static_cast<std::size_t>(pair.sensed);
     const auto j = static_cast<std::size_t>(pair.model);
+    Term term;
+    term.pair = pair;
     if (pair.kind == FeatureKind::line) {
       const Line& s = sensed.lines[i];
       const Line& m = model.lines[j];
-      terms_.push_back({pair,
-                        {s.orientation, s.distance},
-                        {m.orientation, m.distance},
-                        line_information(s, m, matches_of_line_[i], options)});
+      term.sensed = {s.orientation, s.distance};
+      term.model = {m.orientation, m.distance};
+      term.covariance = line_covariance(s, m, options.map_sigma_m);
+      term.information = by_points ? Matrix2d(Matrix2d::Identity() * s.points)
+                                   : Matrix2d(term.covariance.inverse() / matches_of_line_[i]);
     } else {
       const Corner& s = sensed.corners[i];
-      terms_.push_back(
-          {pair, s.position, model.corners[j].position, corner_information(s, sensed, options)});
+      term.sensed = s.position;
+      term.model = model.corners[j].position;
+      term.covariance = corner_covariance(s, options.map_sigma_m);
+      term.information = corner_information(s, sensed, options);
     }
+    terms_.push_back(term);
   }
 }
 
@@ -224,8 +232,25 @@ FeatureFit FeatureEstimator::fit(const FeatureList& sensed, const FeatureList& m
   fit.information = features.information;
   fit.chi_square = features.cost;
   fit.degrees_of_freedom = std::max(0, count_errors() - 3);
-  if (fit.converged) fit.covariance = linearise(fit.pose, prior).information.inverse();
+  if (!fit.converged) return fit;
+  fit.covariance = options.weighting == Weighting::points
+                       ? spread(fit.pose, prior)
+                       : Matrix3d(linearise(fit.pose, prior).information.inverse());
   return fit;
+}
+
+/// Covariance of a least-squares fit whose weights are not the inverse of its errors' covariance:
+/// H^-1 (sum J' W C W J) H^-1, the prior weighted as it is.
+Matrix3d FeatureEstimator::spread(const Pose2& pose,
+                                  const std::optional<PoseWithCovariance>& prior) const {
+  Matrix3d middle = prior ? Matrix3d(prior->covariance.inverse()) : Matrix3d::Zero();
+  for (const Term& term : terms_) {
+    const Linearised l = error_of(term.pair.kind, term.sensed, term.model, pose);
+    const Eigen::Matrix<double, 3, 2> weighted = l.jacobian.transpose() * term.information;
+    middle.noalias() += weighted * term.covariance * weighted.transpose();
+  }
+  const Matrix3d inverse = linearise(pose, prior).information.inverse();
+  return inverse * middle * inverse;
 }
 
 /// Error measures that tell something; a corner on a matched line has one.

@@ -72,7 +72,8 @@ class FeatureEstimator {
     FeaturePair pair;
     Vector2d sensed;       // (orientation, distance) or (x, y)
     Vector2d model;        // the same of the model's feature
-    Matrix2d information;  // of the error; singular where only one direction is told
+    Matrix2d information;  // weight of the error; singular where only one direction is told
+    Matrix2d covariance;   // of the error, as the features' points tell it
   };
   struct System {
     Matrix3d information = Matrix3d::Zero();
@@ -82,8 +83,6 @@ class FeatureEstimator {
 
   void build_terms(const FeatureList& sensed, const FeatureList& model,
                    std::span<const FeaturePair> pairs, const EstimationOptions& options);
-  Matrix2d line_information(const Line& sensed, const Line& model, int shared,
-                            const EstimationOptions& options) const;
   Matrix2d corner_information(const Corner& sensed, const FeatureList& list,
                               const EstimationOptions& options) const;
   System linearise(const Pose2& pose, const std::optional<PoseWithCovariance>& prior) const;
@@ -92,6 +91,7 @@ class FeatureEstimator {
   bool drop_worst(const Pose2& pose, double gate);
   void scale_to_scatter(const EstimationOptions& options,
                         const std::optional<PoseWithCovariance>& prior, const Pose2& start);
+  Matrix3d spread(const Pose2& pose, const std::optional<PoseWithCovariance>& prior) const;
   int count_errors() const;
   int count_sensed() const;
 

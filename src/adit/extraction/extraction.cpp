@@ -141,6 +141,10 @@ void Extractor::add_edge(std::size_t stretch, int arm) {
   if (!points_.full_circle() && (beyond < 0 || beyond >= points_.beam_count())) return;
 
   const Line& line = features_.lines[static_cast<std::size_t>(line_[stretch])];
+  // Where the wall would pass out of range, its end is the scanner's and not the wall's.
+  const int next_beam = (beyond + points_.beam_count()) % points_.beam_count();
+  const Vector2d onward = meet(line, points_.direction(next_beam), points_.point(last));
+  if (onward.norm() > points_.no_return_from()) return;
   // A few missing beams, such as filtered mixed pixels, do not open the view.
   const std::size_t neighbour = at_end ? (last + 1) % n : (last + n - 1) % n;
   const int apart =

@@ -95,11 +95,11 @@ void ScanPoints::collect(const LaserScan& scan, const ScannerModel& scanner) {
   const std::size_t n = cos_.size();
   for (auto* v : {&x_, &y_, &range_}) v->resize(n);
   beam_.resize(n);
-  const double longest = scanner.no_return_from(scan.max_range);
+  no_return_from_ = scanner.no_return_from(scan.max_range);
   std::size_t count = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const double r = scan.ranges[step_ < 0.0 ? n - 1 - k : k];
-    if (!(r > scanner.min_range_m && r < longest)) continue;
+    if (!(r > scanner.min_range_m && r < no_return_from_)) continue;
     x_[count] = r * cos_[k];
     y_[count] = r * sin_[k];
     range_[count] = r;

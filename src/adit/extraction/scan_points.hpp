@@ -51,9 +51,14 @@ class ScanPoints {
   double range(std::size_t i) const { return range_[i]; }
   Vector2d point(std::size_t i) const { return {x_[i], y_[i]}; }
   /// Unit vector of the beam.
-  Vector2d beam(std::size_t i) const {
-    return {cos_[static_cast<std::size_t>(beam_[i])], sin_[static_cast<std::size_t>(beam_[i])]};
+  Vector2d beam(std::size_t i) const { return direction(beam_[i]); }
+  /// Unit vector of the k-th beam in the counter-clockwise order of all beams, with or without
+  /// return.
+  Vector2d direction(int k) const {
+    return {cos_[static_cast<std::size_t>(k)], sin_[static_cast<std::size_t>(k)]};
   }
+  /// The range from which there are no returns (m).
+  double no_return_from() const { return no_return_from_; }
   /// Position of the beam in the counter-clockwise order of all beams.
   int beam_index(std::size_t i) const { return beam_[i]; }
   double beam_step() const { return step_; }
@@ -88,6 +93,7 @@ class ScanPoints {
   void accumulate();
 
   double first_bearing_ = 0.0;
+  double no_return_from_ = 0.0;
   double step_ = 0.0;
   double spacing_per_metre_ = 0.0;  // of neighbouring points, at the grazing angle
   double reach_of_noise_ = 0.0;     // four sigma of the distance between two points (m)

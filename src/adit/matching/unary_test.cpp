@@ -311,6 +311,7 @@ TEST(TolerancesFromPrior, AreSigmasOfTheWorstDirection) {
   covariance(2, 2) = 0.0004;
   MatchingOptions base;
   base.prior_sigmas = 3.0;
+  base.min_angerr = 0.01;
   const MatchingOptions options = tolerances_from_prior(base, covariance);
   EXPECT_NEAR(options.poserr, 3.0 * std::sqrt(0.08), 1e-12);
   EXPECT_NEAR(options.angerr, 0.06, 1e-12);
