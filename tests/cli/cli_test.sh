@@ -150,7 +150,7 @@ bad_input() {
   absent e.dxf
   printf '[extraction]\nmin_operator_m = 0\n' >zero.toml
   bad 'zero.toml:2.*above 0' localize --map plan.csv --log log.clf --config zero.toml -o e
-  bad '1000000 scans' simulate panel --speed 1e-9 -o e
+  bad 'at most 1000000' simulate panel --speed 1e-9 -o e
 
   # a bad line of a log is skipped, and counted
   { head -n 5 log.clf && printf 'ROBOTLASER1 0 nan\nROBOTLASER1 0 -3.1 6.2\n' && tail -n +6 log.clf; } >worse.clf

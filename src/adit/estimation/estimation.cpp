@@ -15,15 +15,16 @@ struct Linearised {
   Eigen::Matrix<double, 2, 3> jacobian;
 };
 
-/// The paper's two error measures of a line: orientation and perpendicular distance.
+/// The paper's two error measures of a line: orientation and perpendicular distance. In the sensed
+/// frame: there only the model's exact normal meets the translation. A sensed one, off by its
+/// noise, would tell of the way along two parallel walls, which they cannot know.
 Linearised line_error(const Vector2d& sensed, const Vector2d& model, const Pose2& pose) {
-  const double orientation = sensed.x() + pose.theta;
-  const Vector2d normal = unit_vector(orientation);
+  const Vector2d normal = unit_vector(model.x());
   Linearised l;
-  l.error = {wrap_angle(model.x() - orientation),
-             model.y() - sensed.y() - normal.dot(pose.translation())};
+  l.error = {wrap_angle(model.x() - pose.theta - sensed.x()),
+             model.y() - normal.dot(pose.translation()) - sensed.y()};
   l.jacobian << 0.0, 0.0, -1.0,  //
-      -normal.x(), -normal.y(), -perpendicular(normal).dot(pose.translation());
+      -normal.x(), -normal.y(), 0.0;
   return l;
 }
 

@@ -200,15 +200,20 @@ TEST(Estimation, OneLineTwiceMatchedCountsOnce) {
 }
 
 TEST(Estimation, DropsThePairThatIsWrong) {
-  const FeatureList model = room();
+  // Of two opposite walls nobody could tell which is wrong; a third one across them can.
+  FeatureList model = room();
+  model.lines.push_back(line_through({2, 3}, {-3, 2.4}));
   const Pose2 truth{0.2, -0.1, 0.05};
   FeatureList sensed = sense(model, truth, 0.0, 3);
-  sensed.lines[2].distance += 0.5;
+  sensed.lines[1].distance += 0.5;
+  std::vector<FeaturePair> pairs = all_pairs(true, false);
+  pairs.push_back({FeatureKind::line, 4, 4});
   FeatureEstimator estimator;
-  const FeatureFit fit = estimator.fit(sensed, model, all_pairs(true, false), {}, perfect_map());
+  const FeatureFit fit = estimator.fit(sensed, model, pairs, {}, perfect_map());
   ASSERT_TRUE(fit.converged);
   EXPECT_EQ(fit.dropped, 1);
-  EXPECT_EQ(estimator.pairs_used().size(), 3u);
+  ASSERT_EQ(estimator.pairs_used().size(), 4u);
+  for (const FeaturePair& pair : estimator.pairs_used()) EXPECT_NE(pair.sensed, 1);
   expect_pose_near(fit.pose, truth, 1e-6);
 }
 
