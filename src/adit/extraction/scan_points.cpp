@@ -32,17 +32,19 @@ bool ScanPoints::is_straight(std::size_t begin, std::size_t end, double sigmas) 
   const double freedom = static_cast<double>(end - begin) - 2.0;
   if (freedom < 1.0) return true;
   const LineError error = line_error(begin, end);
-  const double chi_square = error.squared / error.variance;
-  if (chi_square > freedom + sigmas * std::sqrt(2.0 * freedom)) return false;
-  // Along a long wall the incidence changes, and the noise across it: Simpson's rule over it.
-  const auto variance_at = [&](std::size_t i) {
+  // Along a long wall the incidence changes, and with it the noise across it: the mean of its
+  // share, and of that squared, by Simpson's rule over the points.
+  const auto share_at = [&](std::size_t i) {
     const double range2 = range_[i] * range_[i];
-    return noise_.across(std::clamp(error.foot2 / range2, 0.02, 1.0), range2);
+    return noise_.across(std::clamp(error.foot2 / range2, 0.02, 1.0), range2) / error.variance;
   };
-  const double mean =
-      (variance_at(begin) + 4.0 * variance_at((begin + end) / 2) + variance_at(end - 1)) / 6.0;
-  const double expected = freedom * std::min(1.0, mean / error.variance);
-  return chi_square <= expected + sigmas * std::sqrt(2.0 * expected);
+  const double first = share_at(begin);
+  const double middle = share_at((begin + end) / 2);
+  const double last = share_at(end - 1);
+  const double mean = (first + 4.0 * middle + last) / 6.0;
+  const double mean_square = (first * first + 4.0 * middle * middle + last * last) / 6.0;
+  return error.squared / error.variance <=
+         freedom * mean + sigmas * std::sqrt(2.0 * freedom * mean_square);
 }
 
 void ScanPoints::build(const LaserScan& scan, const ScannerModel& scanner, double roughness,

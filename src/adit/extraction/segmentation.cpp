@@ -19,7 +19,7 @@ Bump strongest_bump(const ScanPoints& points, Stretch s, std::size_t min_points)
   const double distance = normal.dot(line.centroid);
   Bump best;
   for (std::size_t width = min_points; width <= s.size() / 2; width += 1 + width / 2) {
-    for (std::size_t i = s.begin; i + width <= s.end; i += 1 + width / 8) {
+    for (std::size_t i = s.begin; i + width <= s.end; i += 1 + width / 4) {
       const Moments m = points.moments(i, i + width);
       const Vector2d middle(m.x / m.n, m.y / m.n);
       const double off = normal.dot(middle) - distance;
