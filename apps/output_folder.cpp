@@ -13,7 +13,7 @@ Result<void> write_all(const std::string& folder, const std::vector<OutputFile>&
   std::vector<std::string> written;
   for (const OutputFile& file : files) {
     const std::string path = (fs::path(folder) / file.name).string();
-    const Result<void> done = file.write(path);
+    Result<void> done = file.write(path);
     if (done) {
       written.push_back(path);
       continue;

@@ -20,7 +20,7 @@ struct ReplaySettings {
 };
 
 /// What the configuration leaves open comes from the log's own fields, else is estimated from it.
-ReplaySettings settle(const LoadedConfiguration& configuration, const Log& log);
+ReplaySettings settle(const LoadedConfiguration& loaded, const Log& log);
 
 /// A log through the localizer, in the log's order: one row and one set of timings a scan.
 struct Replay {

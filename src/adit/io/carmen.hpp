@@ -33,7 +33,7 @@ class CarmenReader {
 
   /// The maximum range of a laser (m) whose scan states `stated`, which is infinite for one that
   /// does not: a code for "no return" just below it counts, and without it the code alone.
-  double max_range(const LaserId& laser, double stated) const;
+  double max_range(const LaserId& id, double stated) const;
 
  private:
   struct Laser {
@@ -46,7 +46,7 @@ class CarmenReader {
   LogMessage read_flaser(LineFields& fields, LaserKind kind);
   LogMessage read_robotlaser(LineFields& fields, int number);
   void read_param(LineFields& fields);
-  LogMessage finish(LineFields& fields, LogScan scan, RangeSource source);
+  LogMessage finish(LineFields& fields, LogScan out, RangeSource source);
   std::optional<double> param(const std::string& name) const;
   void ignore(std::string_view name);
   Laser& laser(const LaserId& id);

@@ -85,6 +85,7 @@ class Localizer {
   Localizer(LineMap&& map, const LocalizerSettings& settings) = delete;
   Localizer(const Localizer&) = delete;  // estimates view its buffers
   Localizer& operator=(const Localizer&) = delete;
+  ~Localizer() = default;
 
   /// Says where the vehicle is at the next scan, and how surely (default: the start sigmas).
   void start(const Pose2& map_from_vehicle,

@@ -66,7 +66,7 @@ class Predictor {
   void add_joined_corner(const Resolved& before, const Resolved& after);
   void add_end_corner(const Resolved& side, bool after_vertex);
   Corner corner_at(int vertex) const;
-  void push(Corner corner, double bearing);
+  void push(const Corner& corner, double bearing);
 
   const LineMap& map_;
   const Vector2d& observer_;
@@ -159,7 +159,7 @@ Corner Predictor::corner_at(int vertex) const {
   return corner;
 }
 
-void Predictor::push(Corner corner, double bearing) {
+void Predictor::push(const Corner& corner, double bearing) {
   out_.order.push_back({FeatureKind::corner, static_cast<int>(out_.corners.size()), bearing});
   out_.corners.push_back(corner);
 }

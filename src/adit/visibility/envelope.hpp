@@ -66,7 +66,7 @@ class Envelope {
 
   static std::size_t sector(double key);
   void raise_reach(double begin, double end, double squared_distance);
-  double squared_range_at(int wall, double key) const;
+  double squared_range_at(int index, double key) const;
   void split_into_runs();
   void merge(std::span<const Piece> a, std::span<const Piece> b, std::vector<Piece>& out) const;
   void append_nearer(double begin, double end, int a, int b, std::vector<Piece>& out) const;
