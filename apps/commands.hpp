@@ -36,7 +36,7 @@ struct LocalizeArguments {
   std::optional<std::string> start;
   std::string config;
   std::string output = "adit-localize";
-  std::string estimator = "features";
+  std::string estimator = "full";
 };
 
 struct EvaluateArguments {
@@ -64,6 +64,8 @@ struct PlotArguments {
 int run_demo(const DemoArguments& arguments);
 int run_simulate(const SimulateArguments& arguments);
 int run_localize(const LocalizeArguments& arguments);
+/// What `estimator` may be.
+std::vector<std::string> estimator_names();
 int run_evaluate(const EvaluateArguments& arguments);
 int run_map_info(const MapArguments& arguments);
 int run_map_check(const MapArguments& arguments);

@@ -37,7 +37,8 @@ Experiment run_experiment(std::uint64_t seed) {
   LocalizerSettings& settings = experiment.configuration.localizer;
   settings.scanner = experiment.scanner.model;
   settings.odometry = experiment.drive.odometry;
-  settings.estimation.map_sigma_m = 0.0;  // the mockup's walls stand where its plan says
+  settings.map.sigma_m = 0.0;                     // the mockup's walls stand where its plan says
+  settings.localizer.features_every_scan = true;  // as the paper did; its figures show them
   return experiment;
 }
 

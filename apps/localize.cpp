@@ -2,16 +2,18 @@
 
 #include <optional>
 
+#include "adit/calibration/log_settings.hpp"
+#include "adit/config/enum_names.hpp"
 #include "adit/io/json.hpp"
 #include "adit/io/plan.hpp"
 #include "adit/io/trajectory.hpp"
 #include "commands.hpp"
 #include "configured.hpp"
+#include "localize_report.hpp"
 #include "output_folder.hpp"
 #include "parse_pose.hpp"
 #include "replay.hpp"
 #include "report_error.hpp"
-#include "reports.hpp"
 
 namespace adit {
 namespace {
@@ -50,12 +52,15 @@ Result<void> write_results(const std::string& folder, const Replay& replay, cons
 
 }  // namespace
 
+std::vector<std::string> estimator_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : EnumNames<Estimator>::values) names.emplace_back(entry.first);
+  return names;
+}
+
 int run_localize(const LocalizeArguments& arguments) {
-  if (arguments.estimator != "features") {
-    return report(
-        {"--estimator " + arguments.estimator + " is not built yet: only 'features' is there", {}},
-        kWrongCall);
-  }
+  const auto estimator = value_named<Estimator>(arguments.estimator);
+  if (!estimator) return report({"no estimator '" + arguments.estimator + "'", {}}, kWrongCall);
   std::optional<Pose2> start;
   if (arguments.start) {
     const Result<Pose2> pose = parse_pose(*arguments.start);
@@ -65,13 +70,13 @@ int run_localize(const LocalizeArguments& arguments) {
   Result<Inputs> inputs = read_inputs(arguments);
   if (!inputs) return report(inputs.error());
 
-  const ReplaySettings settings = settle(inputs->configuration, inputs->log);
+  inputs->configuration.values.localizer.estimator = *estimator;
+  const LogSettings settings = settle(inputs->configuration, inputs->log);
   MapReport cleaning;
   const LineMap map = LineMap::build(inputs->plan.segments, settings.configuration.map, &cleaning);
   const Replay result = replay(inputs->log, map, settings.configuration.localizer, start);
 
-  const Json report_json =
-      localize_report(arguments.estimator, settings, cleaning, inputs->log.summary, result);
+  const Json report_json = localize_report(settings, cleaning, inputs->log.summary, result);
   if (const auto written =
           write_results(arguments.output, result, report_json, timings_report(result.timings));
       !written) {

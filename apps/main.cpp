@@ -63,9 +63,12 @@ void add_localize(CLI::App& app, adit::LocalizeArguments& args, Action& action) 
                       "first odometry pose)");
   command->add_option("--config", args.config, "TOML file; see 'adit config --reference'");
   command->add_option("-o,--output", args.output, "folder for the results")->capture_default_str();
-  command->add_option("--estimator", args.estimator, "features, points or full")
+  command
+      ->add_option("--estimator", args.estimator,
+                   "features alone (the paper's), points: all points of the scan, from the "
+                   "predicted pose, or full: features, then all points")
       ->capture_default_str()
-      ->check(CLI::IsMember({"features", "points", "full"}));
+      ->check(CLI::IsMember(adit::estimator_names()));
   command->callback([&] { action = [&] { return run_localize(args); }; });
 }
 

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include "adit/evaluation/join.hpp"
 #include "adit/io/estimates.hpp"
 #include "adit/io/plan.hpp"
 #include "adit/io/trajectory.hpp"
@@ -41,19 +42,36 @@ int finish(const Result<void>& drawn, const std::string& path) {
   return kDone;
 }
 
-Result<std::vector<TrajectoryPoint>> read_run(const std::string& path) {
+struct Run {
+  std::vector<double> stamps;
+  std::vector<TrajectoryPoint> points;
+};
+
+Result<Run> read_run(const std::string& path) {
   if (path.ends_with(".csv")) {
     return read_estimates(path).map([](const std::vector<EstimateRow>& rows) {
-      std::vector<TrajectoryPoint> run;
-      for (const EstimateRow& row : rows) run.push_back({row.pose, row.covariance, row.status});
+      Run run{stamps_of(rows), {}};
+      for (const EstimateRow& row : rows) {
+        run.points.push_back({row.pose, row.covariance, row.status, row.protection_m, {}});
+      }
       return run;
     });
   }
   return read_trajectory(path).map([](const std::vector<StampedPose>& poses) {
-    std::vector<TrajectoryPoint> run;
-    for (const StampedPose& pose : poses) run.push_back({pose.pose, std::nullopt, std::nullopt});
+    Run run{stamps_of(poses), {}};
+    for (const StampedPose& pose : poses) run.points.push_back({pose.pose, {}, {}, {}, {}});
     return run;
   });
+}
+
+void add_errors(const std::vector<StampedPose>& truth, Run& run) {
+  const StampIndex index(stamps_of(truth));
+  for (std::size_t i = 0; i < run.points.size(); ++i) {
+    const auto at = index.nearest(run.stamps[i]);
+    if (!at) continue;
+    const Vector2d apart = run.points[i].pose.translation() - truth[*at].pose.translation();
+    run.points[i].error_m = apart.norm();
+  }
 }
 
 }  // namespace
@@ -77,7 +95,8 @@ int run_plot_scan(const PlotArguments& arguments) {
   Extractor extractor;
   ScanView view;
   view.scan = &scan->scan.scan;
-  view.features = &extractor.extract(scan->scan.scan, settings.scanner, settings.extraction);
+  view.features = &extractor.extract(scan->scan.scan, settings.scanner_of(scan->scan.scan),
+                                     settings.extraction);
   return finish(draw_scan(arguments.output, view), arguments.output);
 }
 
@@ -109,8 +128,11 @@ int run_plot_match(const PlotArguments& arguments) {
   if (!inputs) return report(inputs.error());
   const auto scan = read_referenced_scan(*reference, inputs->configuration);
   if (!scan) return report(scan.error());
-  Localizer localizer(inputs->map, scan->settings.configuration.localizer);
+  LocalizerSettings settings = scan->settings.configuration.localizer;
+  settings.localizer.features_every_scan = true;  // the picture is of them
+  Localizer localizer(inputs->map, settings);
   localizer.start(*pose);
+  for (const StampedPose& message : scan->odometry) localizer.add_odometry(message);
   const Estimate& estimate = localizer.update(scan->scan.scan, scan->scan.odom_from_vehicle);
   const Pose2 mounting = scan->scan.scan.vehicle_from_laser;
   const Vector2d observer = (localizer.predicted().pose * mounting).translation();
@@ -132,15 +154,16 @@ int run_plot_trajectory(const PlotArguments& arguments) {
   if (const int wrong = check_call(arguments)) return wrong;
   const auto inputs = read_inputs(arguments);
   if (!inputs) return report(inputs.error());
-  const auto run = read_run(arguments.trajectory);
+  auto run = read_run(arguments.trajectory);
   if (!run) return report(run.error());
   std::vector<Pose2> reference;
   if (!arguments.truth.empty()) {
     const auto truth = read_trajectory(arguments.truth);
     if (!truth) return report(truth.error());
     for (const StampedPose& pose : *truth) reference.push_back(pose.pose);
+    add_errors(*truth, *run);
   }
-  return finish(draw_trajectory(arguments.output, plan_of(inputs->map), *run, reference),
+  return finish(draw_trajectory(arguments.output, plan_of(inputs->map), run->points, reference),
                 arguments.output);
 }
 

@@ -1,6 +1,7 @@
 #include "scan_reference.hpp"
 
 #include <charconv>
+#include <cmath>
 
 #include "configured.hpp"
 
@@ -28,7 +29,13 @@ Result<ReferencedScan> read_referenced_scan(const ScanReference& reference,
                     std::to_string(reference.index) + " (they count from 0)",
                 reference.log);
   }
-  return ReferencedScan{log->scans[reference.index], settle(configuration, *log)};
+  ReferencedScan out{log->scans[reference.index], settle(configuration, *log), {}};
+  const LaserScan& scan = out.scan.scan;
+  const double sweep_s = out.settings.configuration.localizer.scanner_of(scan).sweep_s;
+  for (const StampedPose& message : log->odometry) {
+    if (std::abs(message.stamp - scan.stamp) <= 2.0 * sweep_s) out.odometry.push_back(message);
+  }
+  return out;
 }
 
 }  // namespace adit

@@ -2,11 +2,11 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
-#include "adit/config/configuration.hpp"
+#include "adit/calibration/log_settings.hpp"
 #include "adit/geometry/result.hpp"
 #include "adit/io/log.hpp"
-#include "replay.hpp"
 
 namespace adit {
 
@@ -22,7 +22,8 @@ Result<ScanReference> parse_scan_reference(const std::string& text);
 /// One scan of a log, and the settings that its whole log would be replayed with.
 struct ReferencedScan {
   LogScan scan;
-  ReplaySettings settings;
+  LogSettings settings;
+  std::vector<StampedPose> odometry;  ///< the ODOM messages around its sweep
 };
 
 /// Reads the scan from its log, as `localize` does under the same configuration.

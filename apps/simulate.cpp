@@ -99,7 +99,7 @@ Result<void> write_scene(const std::string& folder, const Scene& scene,
   Configuration configuration;
   configuration.localizer.scanner = scene.scanner.model;
   configuration.localizer.odometry = scene.drive.odometry;
-  configuration.localizer.estimation.map_sigma_m = plan_error(scene.world);
+  configuration.localizer.map.sigma_m = plan_error(scene.world);
   using Path = const std::string&;
   return write_all(
       folder,

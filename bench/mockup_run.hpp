@@ -15,7 +15,7 @@ struct MockupRun {
     recording = record_stops(world, world.path, cyclone(), drive, seed);
     settings.scanner = cyclone().model;
     settings.odometry = drive.odometry;
-    settings.estimation.map_sigma_m = 0.0;  // the mockup's plan is exact
+    settings.map.sigma_m = 0.0;  // the mockup's plan is exact
   }
 
   World world = mockup();

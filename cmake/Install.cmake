@@ -4,8 +4,8 @@
 # Pictures, simulation and evaluation serve the command and are not installed.
 include(CMakePackageConfigHelpers)
 
-set(adit_core_modules geometry motion scan map visibility features prediction extraction matching
-  estimation information tracking localizer)
+set(adit_core_modules geometry motion scan deskew map visibility features prediction extraction
+  matching estimation information refinement tracking localizer)
 set(adit_io_modules)
 if(ADIT_BUILD_APPS)
   set(adit_io_modules io config)

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 
+#include "adit/calibration/log_settings.hpp"
 #include "adit/evaluation/report.hpp"
+#include "adit/extraction/extraction.hpp"
+#include "adit/io/carmen.hpp"
 #include "adit/io/plan.hpp"
 #include "adit/io/trajectory.hpp"
 #include "apps/replay.hpp"
@@ -21,7 +24,7 @@ T value_of(Result<T> result) {
 Replay localise(const std::string& log_path, const std::vector<Segment>& plan,
                 const std::optional<Pose2>& start) {
   const Log log = value_of(read_log(log_path));
-  const ReplaySettings settings = settle({}, log);
+  const LogSettings settings = settle({}, log);
   const LineMap map = LineMap::build(plan, settings.configuration.map);
   Replay result = replay(log, map, settings.configuration.localizer, start);
   EXPECT_EQ(result.rows.size(), log.scans.size());

@@ -58,7 +58,7 @@ class Machine {
   static LocalizerSettings settings_for(const ScannerSpec& spec) {
     LocalizerSettings settings;
     settings.scanner = spec.model;
-    settings.estimation.map_sigma_m = 0.0;
+    settings.map.sigma_m = 0.0;
     return settings;
   }
 

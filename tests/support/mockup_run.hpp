@@ -22,7 +22,7 @@ inline LocalizerSettings mockup_settings() {
   LocalizerSettings settings;
   settings.scanner = cyclone().model;
   settings.odometry = DriveOptions{}.odometry;
-  settings.estimation.map_sigma_m = 0.0;
+  settings.map.sigma_m = 0.0;
   return settings;
 }
 

@@ -67,21 +67,70 @@ std::optional<double> number_of(const TomlValue& value) {
 
 /// Lengths, angles and thresholds that something is divided by, or that mean nothing at 0.
 constexpr std::array kAboveZero = {
-    "extraction.min_operator_m",      "extraction.max_operator_m", "extraction.corner_chi_square",
-    "extraction.min_corner_turn_rad", "extraction.grazing_rad",    "localizer.prior_floor_m",
-    "localizer.prior_floor_rad",      "localizer.map_stretch_m",
+    "map.length_m",
+    "map.prior_metres",
+    "map.memory_metres",
+    "motion.speed_sigma_m_per_s",
+    "motion.turn_rate_sigma_rad_per_s",
+    "extraction.min_operator_m",
+    "extraction.max_operator_m",
+    "extraction.corner_chi_square",
+    "extraction.min_corner_turn_rad",
+    "extraction.grazing_rad",
+    "belief.map_stretch_m",
+    "refinement.max_step_m",
+    "refinement.max_step_rad",
+    "refinement.station_spacing_m",
+    "search.least_reach_m",
+    "search.least_reach_rad",
+    "tracking.bias_distance_m",
+    "tracking.gate_chi_square",
+    "protection.loose_prior",
+    "localizer.start_sigma_m",
+    "localizer.start_sigma_rad",
+    "localizer.prior_floor_m",
+    "localizer.prior_floor_rad",
+    "localizer.prior_inflation",
+};
+
+/// Probabilities of what may or may not happen.
+constexpr std::array kProbabilities = {
+    "refinement.clutter_begin_ratio",
+    "refinement.clutter_end_ratio",
+    "refinement.long_ratio",
+    "protection.risk",
 };
 
 /// Counts that cannot be 0, and the least that they can be.
-constexpr std::array<std::pair<const char*, int>, 4> kLeastCounts = {{
+constexpr std::array<std::pair<const char*, int>, 5> kLeastCounts = {{
+    {"refinement.max_iterations", 1},
     {"extraction.min_line_points", 3},
     {"matching.max_candidates", 1},
     {"matching.max_calls", 1},
     {"estimation.max_iterations", 1},
 }};
 
-bool must_be_above_zero(const std::string& name) {
-  return std::find(kAboveZero.begin(), kAboveZero.end(), name) != kAboveZero.end();
+/// What a number may be, and how to say so.
+struct Bounds {
+  bool above_zero = false;
+  bool below_one = false;
+
+  bool hold(double value) const {
+    if (!std::isfinite(value) || value < 0.0) return false;
+    return !(above_zero && value == 0.0) && !(below_one && value >= 1.0);
+  }
+  const char* words() const {
+    if (below_one) return "a number above 0 and below 1";
+    return above_zero ? "a finite number above 0" : "a finite number, 0 or more";
+  }
+};
+
+Bounds bounds_of(const std::string& name) {
+  const auto lists = [&](const auto& names) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
+  const bool is_probability = lists(kProbabilities);
+  return {is_probability || lists(kAboveZero), is_probability};
 }
 
 int least_count(const std::string& name) {
@@ -94,9 +143,8 @@ int least_count(const std::string& name) {
 std::optional<std::string> set(const ConfigField& field, const TomlValue& value) {
   if (auto* const* target = std::get_if<double*>(&field.target)) {
     const auto number = number_of(value);
-    const bool above_zero = must_be_above_zero(field.name());
-    if (!number || !std::isfinite(*number) || *number < 0.0 || (above_zero && *number == 0.0))
-      return above_zero ? "a finite number above 0" : "a finite number, 0 or more";
+    const Bounds bounds = bounds_of(field.name());
+    if (!number || !bounds.hold(*number)) return bounds.words();
     **target = *number;
     return std::nullopt;
   }

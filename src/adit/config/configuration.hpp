@@ -10,17 +10,6 @@
 
 namespace adit {
 
-/// [map] sigma_m: how far the plan's walls stand from the real ones, a field of the estimation.
-struct MapAccuracy {
-  EstimationOptions& estimation;
-
-  template <class Self, class Field>
-  static void visit(Self& self, Field&& field) {
-    field("sigma_m", self.estimation.map_sigma_m,
-          "how far a wall may be from its line in the plan, one sigma (m)");
-  }
-};
-
 /// [matching] consistency: which definition of a consistent set the matching takes.
 struct ConsistencyChoice {
   MatchingOptions& matching;
@@ -41,18 +30,28 @@ struct Configuration {
   /// own. Two parts may share a table.
   template <class Table>
   static void visit(Configuration& self, Table&& table) {
-    MapAccuracy accuracy{self.localizer.estimation};
     ConsistencyChoice consistency{self.localizer.matching};
     table("scanner", self.localizer.scanner, "how the scanner measures");
     table("odometry", self.localizer.odometry, "how wrong dead reckoning may be");
-    table("map", accuracy, "");
+    table("map", self.localizer.map, "");
     table("map", self.map, "the plan and its cleaning");
+    table("motion", self.localizer.motion, "how the vehicle moves during a sweep");
+    table("deskew", self.localizer.deskew, "what of a sweep is out of sight from one place");
     table("prediction", self.localizer.prediction, "which features the plan promises");
     table("extraction", self.localizer.extraction, "which features a scan shows");
     table("matching", consistency, "");
     table("matching", self.localizer.matching, "which of them are the same");
     table("estimation", self.localizer.estimation, "the pose that follows");
-    table("localizer", self.localizer.localizer, "which estimates are believed");
+    table("belief", self.localizer.belief, "which feature estimates are believed");
+    table("refinement", self.localizer.refinement, "all points against the plan");
+    table("search", self.localizer.search, "where else to look when they do not fit");
+    table("displacement", self.localizer.displacement,
+          "returns that look like a wall in the wrong place");
+    table("tracking", self.localizer.tracking, "scans and dead reckoning together");
+    table("status", self.localizer.status, "when a pose may be trusted");
+    table("stamps", self.localizer.stamps, "what is odd in the order of scans");
+    table("protection", self.localizer.protection, "how far off a trusted pose may be");
+    table("localizer", self.localizer.localizer, "the start, and what holds between two scans");
   }
 };
 

@@ -8,6 +8,8 @@
 namespace adit {
 namespace {
 
+constexpr int kBoundedKeys = 33;  // that cannot be 0
+
 LoadedConfiguration loaded(std::string_view text) {
   auto read = parse_configuration(text, "c.toml");
   EXPECT_TRUE(read) << to_string(read.error());
@@ -46,7 +48,7 @@ TEST(Configuration, KeysOfTheInterfaceReachTheirStages) {
   EXPECT_EQ(settings.odometry.translation_sigma_ratio, 0.05);
   EXPECT_EQ(settings.odometry.rotation_sigma_rad_per_m, 0.03);
   EXPECT_EQ(settings.odometry.rotation_sigma_ratio, 0.04);
-  EXPECT_EQ(settings.estimation.map_sigma_m, 0.07);
+  EXPECT_EQ(settings.map.sigma_m, 0.07);
   EXPECT_EQ(read.values.map.snap_m, 0.02);
   EXPECT_EQ(read.given.size(), 11u);
   EXPECT_TRUE(read.has("scanner.max_range_m"));
@@ -58,13 +60,27 @@ TEST(Configuration, EveryStageHasATable) {
   const LoadedConfiguration read = loaded(
       "matching.consistency = \"paper\"\nestimation.weighting = \"points\"\n"
       "estimation.max_iterations = 7\n[prediction]\nmin_line_m = 0.6\n[extraction]\n"
-      "min_line_m = 0.7\n[localizer]\nmin_pairs = 4\n");
+      "min_line_m = 0.7\n[belief]\nmin_pairs = 4\n[motion]\nspeed_sigma_m_per_s = 1.5\n[deskew]\n"
+      "surface_beams = 5\n[refinement]\nlong_ratio = 0.2\n[search]\nreach_sigmas = 3\n"
+      "[displacement]\nmost_m = 1.5\n[tracking]\nbias_distance_m = 12\n[status]\n"
+      "ambiguous_gain = 2\n[stamps]\ngap_s = 1\n[protection]\nrisk = 0.01\n[localizer]\n"
+      "start_sigma_m = 0.5\n");
   EXPECT_EQ(read.values.localizer.matching.consistency, Consistency::paper);
   EXPECT_EQ(read.values.localizer.estimation.weighting, Weighting::points);
   EXPECT_EQ(read.values.localizer.estimation.max_iterations, 7);
   EXPECT_EQ(read.values.localizer.prediction.min_line_m, 0.6);
   EXPECT_EQ(read.values.localizer.extraction.min_line_m, 0.7);
-  EXPECT_EQ(read.values.localizer.localizer.min_pairs, 4);
+  EXPECT_EQ(read.values.localizer.belief.min_pairs, 4);
+  EXPECT_EQ(read.values.localizer.motion.speed_sigma_m_per_s, 1.5);
+  EXPECT_EQ(read.values.localizer.deskew.surface_beams, 5);
+  EXPECT_EQ(read.values.localizer.refinement.long_ratio, 0.2);
+  EXPECT_EQ(read.values.localizer.search.reach_sigmas, 3.0);
+  EXPECT_EQ(read.values.localizer.displacement.most_m, 1.5);
+  EXPECT_EQ(read.values.localizer.tracking.bias_distance_m, 12.0);
+  EXPECT_EQ(read.values.localizer.status.ambiguous_gain, 2.0);
+  EXPECT_EQ(read.values.localizer.stamps.gap_s, 1.0);
+  EXPECT_EQ(read.values.localizer.protection.risk, 0.01);
+  EXPECT_EQ(read.values.localizer.localizer.start_sigma_m, 0.5);
 }
 
 TEST(Configuration, NothingGivenIsTheDefault) {
@@ -80,7 +96,7 @@ TEST(Configuration, UnknownNamesAreErrorsWithTheNearestKnown) {
             "c.toml:3: unknown key \"range_sigma\" in [scanner]; nearest known: range_sigma_m, "
             "max_range_m, min_range_m");
   EXPECT_EQ(error_of("\n\n[scaner]\nrange_sigma_m = 1\n"),
-            "c.toml:3: unknown table \"scaner\"; nearest known: scanner, map, localizer");
+            "c.toml:3: unknown table \"scaner\"; nearest known: scanner, search, status");
   EXPECT_NE(error_of("angerr = 0.1\n").find("c.toml:1: unknown key \"angerr\" outside a table"),
             std::string::npos);
   EXPECT_NE(error_of("scanner = 1\n").find("c.toml:1: unknown key \"scanner\" outside a table"),
@@ -110,10 +126,30 @@ TEST(Configuration, WrongValuesSayWhatWasExpected) {
 }
 
 TEST(Configuration, SomeKeysCannotBeZero) {
-  for (const char* name :
-       {"localizer.prior_floor_m", "localizer.prior_floor_rad", "localizer.map_stretch_m",
-        "extraction.min_operator_m", "extraction.max_operator_m", "extraction.grazing_rad",
-        "extraction.min_corner_turn_rad", "extraction.corner_chi_square"}) {
+  for (const char* name : {"localizer.start_sigma_m",
+                           "localizer.start_sigma_rad",
+                           "localizer.prior_floor_m",
+                           "localizer.prior_floor_rad",
+                           "localizer.prior_inflation",
+                           "belief.map_stretch_m",
+                           "map.length_m",
+                           "map.prior_metres",
+                           "map.memory_metres",
+                           "motion.speed_sigma_m_per_s",
+                           "motion.turn_rate_sigma_rad_per_s",
+                           "refinement.max_step_m",
+                           "refinement.max_step_rad",
+                           "refinement.station_spacing_m",
+                           "search.least_reach_m",
+                           "search.least_reach_rad",
+                           "tracking.bias_distance_m",
+                           "tracking.gate_chi_square",
+                           "protection.loose_prior",
+                           "extraction.min_operator_m",
+                           "extraction.max_operator_m",
+                           "extraction.grazing_rad",
+                           "extraction.min_corner_turn_rad",
+                           "extraction.corner_chi_square"}) {
     const std::string key = name;
     for (const char* value : {"0", "0.0", "-0.0", "-1", "nan", "\"1\""})
       EXPECT_EQ(error_of("\n" + key + " = " + value + "\n"),
@@ -121,6 +157,7 @@ TEST(Configuration, SomeKeysCannotBeZero) {
     EXPECT_EQ(error_of(key + " = 1e-9\n"), "no error") << key;
   }
   for (const auto& [name, least] : {std::pair{"extraction.min_line_points", 3},
+                                    {"refinement.max_iterations", 1},
                                     {"matching.max_calls", 1},
                                     {"matching.max_candidates", 1},
                                     {"estimation.max_iterations", 1}}) {
@@ -130,7 +167,32 @@ TEST(Configuration, SomeKeysCannotBeZero) {
         "c.toml:2: " + key + ": expected a whole number, " + std::to_string(least) + " or more");
     EXPECT_EQ(error_of(key + " = " + std::to_string(least) + "\n"), "no error") << key;
   }
-  EXPECT_EQ(error_of("scanner.range_sigma_m = 0\nlocalizer.few_pairs = 0\n"), "no error");
+  EXPECT_EQ(error_of("scanner.range_sigma_m = 0\nbelief.few_pairs = 0\n"), "no error");
+}
+
+TEST(Configuration, ProbabilitiesLieBetweenZeroAndOne) {
+  for (const char* name : {"refinement.clutter_begin_ratio", "refinement.clutter_end_ratio",
+                           "refinement.long_ratio", "protection.risk"}) {
+    const std::string key = name;
+    for (const char* value : {"0", "-0.1", "1", "1.5", "inf", "nan", "\"0.1\""})
+      EXPECT_EQ(error_of(key + " = " + value + "\n"),
+                "c.toml:1: " + key + ": expected a number above 0 and below 1");
+    EXPECT_EQ(error_of(key + " = 0.999\n"), "no error") << key;
+  }
+}
+
+// A key that a check names must be a key of the configuration.
+TEST(Configuration, EveryBoundBelongsToAKey) {
+  Configuration defaults;
+  int checked = 0;
+  for (const ConfigField& field : fields_of(defaults)) {
+    if (std::holds_alternative<WordField>(field.target)) continue;
+    if (std::holds_alternative<bool*>(field.target)) continue;
+    const std::string error = error_of(field.name() + " = 0\n");
+    if (error != "no error" && field.name() != "scanner.max_range_m") ++checked;
+    EXPECT_EQ(error_of(field.name() + " = " + value_text(field) + "\n"), "no error");
+  }
+  EXPECT_EQ(checked, kBoundedKeys);
 }
 
 TEST(Configuration, RangesMustLeaveRoom) {
@@ -156,7 +218,7 @@ TEST(Configuration, WrittenFilesReadBack) {
   configuration.localizer.scanner.min_range_m = 1e-7;
   configuration.localizer.scanner.stamp = SweepMoment::end;
   configuration.localizer.matching.consistency = Consistency::paper;
-  configuration.localizer.estimation.map_sigma_m = 0.25;
+  configuration.localizer.map.sigma_m = 0.25;
   configuration.localizer.estimation.max_iterations = 3;
   const test::ScratchFolder folder;
   ASSERT_TRUE(write_configuration(configuration, folder.path("c.toml")));

@@ -39,14 +39,9 @@ template <class Enum>
 WordField word_field(Enum& value) {
   WordField out;
   for (const auto& entry : EnumNames<Enum>::values) out.words.emplace_back(entry.first);
-  out.get = [&value] {
-    for (const auto& entry : EnumNames<Enum>::values)
-      if (entry.second == value) return std::string(entry.first);
-    return std::string();
-  };
+  out.get = [&value] { return std::string(word_of(value)); };
   out.set = [&value](const std::string& word) {
-    for (const auto& entry : EnumNames<Enum>::values)
-      if (entry.first == word) value = entry.second;
+    if (const auto named = value_named<Enum>(word)) value = *named;
   };
   return out;
 }

@@ -80,8 +80,10 @@ void ScanPoints::restart_at(std::size_t point) {
 void ScanPoints::prepare_beams(const LaserScan& scan) {
   const std::size_t n = scan.beams_of_one_turn();
   full_circle_ = scan.is_full_circle();
-  if (cos_.size() == n && first_bearing_ == scan.first_bearing && step_ == scan.bearing_step)
-    return;
+  const bool same_fan = evenly_spaced_ && scan.bearings.empty() && cos_.size() == n &&
+                        first_bearing_ == scan.first_bearing && step_ == scan.bearing_step;
+  if (same_fan) return;
+  evenly_spaced_ = scan.bearings.empty();
   first_bearing_ = scan.first_bearing;
   step_ = scan.bearing_step;
   cos_.resize(n);

@@ -97,6 +97,7 @@ class ScanPoints {
   double step_ = 0.0;
   double spacing_per_metre_ = 0.0;  // of neighbouring points, at the grazing angle
   double reach_of_noise_ = 0.0;     // four sigma of the distance between two points (m)
+  bool evenly_spaced_ = false;      // the beams whose cosines are kept
   bool full_circle_ = false;
   bool closed_ = false;
   PointNoise noise_;

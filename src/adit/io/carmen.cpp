@@ -81,6 +81,7 @@ Result<void> check_any_scan(const LogSummary& summary, const std::string& file) 
 struct Collector {
   void operator()(LogMessage&& message) {
     if (auto* scan = std::get_if<LogScan>(&message)) {
+      scan->odometry_before = log.odometry.size();
       log.scans.push_back(std::move(*scan));
     } else if (const auto* odometry = std::get_if<LogOdometry>(&message)) {
       log.odometry.push_back(odometry->odom_from_vehicle);

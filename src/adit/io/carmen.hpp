@@ -14,6 +14,7 @@ namespace adit {
 
 /// Reads a CARMEN log line by line and keeps count of what it met; holds no scans.
 ///
+/// Lasers are numbered in the order in which they appear: the `scanner` of their scans.
 /// The time of a message is its first (ipc) timestamp. FLASER and RLASER: the first beam at -90
 /// degrees, the step 180/n degrees for even n and 180/(n-1) for odd n; RLASER looks backwards; both
 /// sit on the vehicle's axis at the offsets that PARAM lines give; the second pose is the odometry.

@@ -209,6 +209,7 @@ LogMessage CarmenReader::finish(LineFields& fields, LogScan out, RangeSource sou
   out.line = fields.line_number;
 
   Laser& state = laser(out.laser);
+  out.scan.scanner = static_cast<int>(&state - lasers_.data());
   LaserSummary& known = state.summary;
   const std::size_t beams = out.scan.ranges.size();
   known.fewest_beams = known.scans == 0 ? beams : std::min(known.fewest_beams, beams);

@@ -112,6 +112,8 @@ TEST(Carmen, KeepsKindsApartAndInOrder) {
   EXPECT_EQ(log.true_poses[0].pose.vector(), Vector3d(7, 8, 0.25));
   ASSERT_EQ(log.scans.size(), 3u);
   EXPECT_EQ(log.scans[2].line, 10);
+  EXPECT_EQ(log.scans[0].odometry_before, 1u);
+  EXPECT_EQ(log.scans[2].odometry_before, 2u);
   EXPECT_EQ(log.summary.ignored, (std::map<std::string, long>{{"SYNC", 2}, {"NMEA-GGA", 1}}));
   EXPECT_EQ(log.summary.lines, 10);
   ASSERT_EQ(log.summary.lasers.size(), 1u);
@@ -143,13 +145,15 @@ TEST(Carmen, MaximumRangeIsFoundOrAssumed) {
   EXPECT_TRUE(far.scans[0].scan.has_return(3));
 }
 
-TEST(Carmen, EachLaserHasItsOwnMaximum) {
+TEST(Carmen, EachLaserHasItsOwnMaximumAndNumber) {
   std::string text;
   for (int i = 0; i < 3; ++i)
     text += kFlaser + "RLASER 4 1 2 3.5 30 9 9 9 1 2 0.5 100.25 host 0.1\n";
   const Log log = log_of(text);
   EXPECT_EQ(log.scans[0].scan.max_range, 81.83);
   EXPECT_EQ(log.scans[1].scan.max_range, 30.0);
+  EXPECT_EQ(log.scans[2].scan.scanner, 0);
+  EXPECT_EQ(log.scans[3].scan.scanner, 1);
 }
 
 TEST(Carmen, ReadingsMayBeNoNumbersAtAll) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kHeader =
     "t,x,y,theta,cov_xx,cov_xy,cov_xt,cov_yy,cov_yt,cov_tt,status,protection_m,"
-    "chi_square,degrees_of_freedom,pairs,dead_reckoned\n";
+    "chi_square,degrees_of_freedom,pairs,dead_reckoned,open_x,open_y\n";
 
 /// Reads one column into a row; false when the field does not fit.
 struct Column {
@@ -89,7 +89,14 @@ bool read_dead_reckoned(std::string_view field, EstimateRow& row) {
   return true;
 }
 
-constexpr std::array<Column, 16> kColumns = {{
+template <int Axis>
+bool read_open_direction(std::string_view field, EstimateRow& row) {
+  const auto value = finite(field);
+  if (value) row.open_direction[Axis] = *value;
+  return value.has_value();
+}
+
+constexpr std::array<Column, 18> kColumns = {{
     {"t", true, read_stamp},
     {"x", true, read_pose<&Pose2::x>},
     {"y", true, read_pose<&Pose2::y>},
@@ -106,6 +113,8 @@ constexpr std::array<Column, 16> kColumns = {{
     {"degrees_of_freedom", false, read_count<&EstimateRow::degrees_of_freedom>},
     {"pairs", false, read_count<&EstimateRow::pairs>},
     {"dead_reckoned", false, read_dead_reckoned},
+    {"open_x", false, read_open_direction<0>},
+    {"open_y", false, read_open_direction<1>},
 }};
 
 /// Which column each field of a row is; null for one that is not known.
@@ -158,9 +167,16 @@ Matrix3d known_or_infinite(const Matrix3d& covariance) {
 }  // namespace
 
 EstimateRow to_row(const Estimate& e) {
-  return {e.stamp,        e.pose,       e.covariance,         e.status,
-          e.protection_m, e.chi_square, e.degrees_of_freedom, static_cast<int>(e.pairs.size()),
-          e.dead_reckoned};
+  return {e.stamp,
+          e.pose,
+          e.covariance,
+          e.status,
+          e.protection_m,
+          e.chi_square,
+          e.degrees_of_freedom,
+          static_cast<int>(e.pairs.size()),
+          e.dead_reckoned,
+          e.open_direction.value_or(Vector2d::Zero())};
 }
 
 std::string format_estimates(std::span<const EstimateRow> rows) {
@@ -170,10 +186,11 @@ std::string format_estimates(std::span<const EstimateRow> rows) {
     const double protection =
         std::isnan(row.protection_m) ? std::numeric_limits<double>::infinity() : row.protection_m;
     fmt::format_to(std::back_inserter(text),
-                   FMT_COMPILE("{:.6f},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n"), row.stamp,
-                   row.pose.x, row.pose.y, row.pose.theta, c(0, 0), c(0, 1), c(0, 2), c(1, 1),
-                   c(1, 2), c(2, 2), to_string(row.status), protection, row.chi_square,
-                   row.degrees_of_freedom, row.pairs, row.dead_reckoned ? 1 : 0);
+                   FMT_COMPILE("{:.6f},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n"),
+                   row.stamp, row.pose.x, row.pose.y, row.pose.theta, c(0, 0), c(0, 1), c(0, 2),
+                   c(1, 1), c(1, 2), c(2, 2), to_string(row.status), protection, row.chi_square,
+                   row.degrees_of_freedom, row.pairs, row.dead_reckoned ? 1 : 0,
+                   row.open_direction.x(), row.open_direction.y());
   }
   return text;
 }

@@ -22,6 +22,9 @@ struct EstimateRow {
   int degrees_of_freedom = 0;
   int pairs = 0;
   bool dead_reckoned = true;
+  /// The direction (unit vector, map axes) that the scan does not show; zero where it shows both,
+  /// or where it is the heading that is open (status `degraded`).
+  Vector2d open_direction = Vector2d::Zero();
 };
 
 /// The row that an estimate makes.

@@ -34,6 +34,9 @@ struct LogScan {
   LaserId laser;
   double accuracy_m = 0.0;  ///< the log's own field; 0 when it has none
   long line = 0;            ///< in the file, from 1; 0 for scans that come from no file
+  /// How many of the log's ODOM messages stand before it: a log is in the order of arrival, which
+  /// need not be that of the stamps.
+  std::size_t odometry_before = 0;
 };
 
 /// An ODOM message: odom_from_vehicle.
@@ -83,7 +86,8 @@ struct LogSummary {
   long scans() const;
 };
 
-/// A whole log: messages of each kind in the order of the file.
+/// A whole log: messages of each kind in the order of the file. Scans number their scanner by the
+/// place of their laser in the summary.
 struct Log {
   std::vector<LogScan> scans;
   std::vector<StampedPose> odometry;    ///< odom_from_vehicle of the ODOM messages

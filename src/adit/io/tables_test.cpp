@@ -113,6 +113,7 @@ EstimateRow some_row() {
   row.degrees_of_freedom = 9;
   row.pairs = 6;
   row.dead_reckoned = false;
+  row.open_direction = {0.6, -0.8};
   return row;
 }
 
@@ -121,9 +122,9 @@ TEST(Estimates, TheFormIsFixed) {
   EXPECT_EQ(
       format_estimates(rows),
       "t,x,y,theta,cov_xx,cov_xy,cov_xt,cov_yy,cov_yt,cov_tt,status,protection_m,chi_square,"
-      "degrees_of_freedom,pairs,dead_reckoned\n"
+      "degrees_of_freedom,pairs,dead_reckoned,open_x,open_y\n"
       "976053557.767368,0.3333333333333333,-2.5,3,0.01,0.001,-0.002,0.04,0.003,1e-05,degraded,"
-      "0.75,12.5,9,6,0\n");
+      "0.75,12.5,9,6,0,0.6,-0.8\n");
 }
 
 TEST(Estimates, RowsReadBackBitByBit) {
@@ -143,6 +144,7 @@ TEST(Estimates, RowsReadBackBitByBit) {
     EXPECT_EQ((*read)[i].degrees_of_freedom, rows[i].degrees_of_freedom);
     EXPECT_EQ((*read)[i].pairs, rows[i].pairs);
     EXPECT_EQ((*read)[i].dead_reckoned, rows[i].dead_reckoned);
+    EXPECT_EQ((*read)[i].open_direction, rows[i].open_direction);
   }
 }
 
@@ -171,6 +173,15 @@ TEST(Estimates, ColumnsAreFoundByName) {
   EXPECT_EQ((*read)[0].status, Status::ok);
 }
 
+TEST(Estimates, FilesWithoutTheLaterColumnsAreRead) {
+  const auto read = parse_estimates(
+      "t,x,y,theta,cov_xx,cov_xy,cov_xt,cov_yy,cov_yt,cov_tt,status,protection_m,chi_square,"
+      "degrees_of_freedom,pairs,dead_reckoned\n1,2,3,0,1,0,0,1,0,1,ok,0.5,1,1,7,0\n");
+  ASSERT_TRUE(read) << to_string(read.error());
+  EXPECT_EQ((*read)[0].pairs, 7);
+  EXPECT_EQ((*read)[0].open_direction, Vector2d(0.0, 0.0));
+}
+
 TEST(Estimates, SaysLineAndWhatWasExpected) {
   const std::string header = format_estimates({});
   const auto error = [&](const std::string& text) {
@@ -179,15 +190,17 @@ TEST(Estimates, SaysLineAndWhatWasExpected) {
   };
   EXPECT_EQ(error("t,x,y\n"), "e.csv:1: expected a header with the column theta");
   EXPECT_EQ(error("t,x,y,t\n"), "e.csv:1: column \"t\" stands twice");
-  EXPECT_EQ(error(header + "1,2\n"), "e.csv:2: expected 16 fields, found fewer");
-  EXPECT_EQ(error(header + "1,2,3,0,1,0,0,1,0,1,fine,1,1,1,1,1\n"),
+  EXPECT_EQ(error(header + "1,2\n"), "e.csv:2: expected 18 fields, found fewer");
+  EXPECT_EQ(error(header + "1,2,3,0,1,0,0,1,0,1,fine,1,1,1,1,1,0,0\n"),
             "e.csv:2: expected status, found \"fine\"");
-  EXPECT_EQ(error(header + "1,2,3,0,-1,0,0,1,0,1,ok,1,1,1,1,1\n"),
+  EXPECT_EQ(error(header + "1,2,3,0,-1,0,0,1,0,1,ok,1,1,1,1,1,0,0\n"),
             "e.csv:2: expected cov_xx, found \"-1\"");
-  EXPECT_EQ(error(header + "1,2,3,0,1,0,0,1,0,1,ok,1,1,1.5,1,1\n"),
+  EXPECT_EQ(error(header + "1,2,3,0,1,0,0,1,0,1,ok,1,1,1.5,1,1,0,0\n"),
             "e.csv:2: expected degrees_of_freedom, found \"1.5\"");
-  EXPECT_EQ(error(header + "1,2,3,0,1,0,0,1,0,1,ok,1,1,1,1,1,1\n"),
-            "e.csv:2: expected 16 fields, found more");
+  EXPECT_EQ(error(header + "1,2,3,0,1,0,0,1,0,1,ok,1,1,1,1,1,0,inf\n"),
+            "e.csv:2: expected open_y, found \"inf\"");
+  EXPECT_EQ(error(header + "1,2,3,0,1,0,0,1,0,1,ok,1,1,1,1,1,0,0,1\n"),
+            "e.csv:2: expected 18 fields, found more");
   EXPECT_EQ(error(header), "no error");
 }
 
@@ -198,7 +211,10 @@ TEST(Estimates, ARowIsMadeFromAnEstimate) {
   estimate.status = Status::ok;
   estimate.dead_reckoned = false;
   estimate.pairs = pairs;
+  EXPECT_EQ(to_row(estimate).open_direction, Vector2d(0.0, 0.0));
+  estimate.open_direction = Vector2d(0.0, 1.0);
   const EstimateRow row = to_row(estimate);
+  EXPECT_EQ(row.open_direction, Vector2d(0.0, 1.0));
   EXPECT_EQ(row.pairs, 4);
   EXPECT_EQ(row.status, Status::ok);
   EXPECT_FALSE(row.dead_reckoned);

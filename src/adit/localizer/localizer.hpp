@@ -1,79 +1,20 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
-#include "adit/estimation/estimation.hpp"
-#include "adit/extraction/extraction.hpp"
+#include "adit/deskew/deskewer.hpp"
+#include "adit/localizer/settings.hpp"
 #include "adit/localizer/timings.hpp"
 #include "adit/map/line_map.hpp"
-#include "adit/matching/matching.hpp"
-#include "adit/motion/odometry.hpp"
 #include "adit/motion/pose_history.hpp"
-#include "adit/prediction/prediction.hpp"
+#include "adit/refinement/refinement.hpp"
 #include "adit/scan/laser_scan.hpp"
-#include "adit/scan/scanner_model.hpp"
 #include "adit/tracking/estimate.hpp"
+#include "adit/tracking/pose_tracker.hpp"
 #include "adit/visibility/visibility.hpp"
 
 namespace adit {
-
-/// When an estimate is believed, and what is believed before the first one.
-struct LocalizerOptions {
-  double start_sigma_m = 0.25;
-  double start_sigma_rad = 0.07;
-  double gyro_sigma_rad = 0.002;
-  double max_age_s = 0.5;
-  double prior_floor_m = 0.02;
-  double prior_floor_rad = 0.004;
-  double gate_chi_square = 60.0;
-  double few_pairs_gate_chi_square = 16.3;
-  int few_pairs = 4;
-  double map_stretch_m = 2.0;
-  int min_pairs = 2;
-  double max_dropped_ratio = 0.5;
-
-  template <class Self, class Field>
-  static void visit(Self& self, Field&& field) {
-    field("start_sigma_m", self.start_sigma_m, "sigma of the start's x and y (m)");
-    field("start_sigma_rad", self.start_sigma_rad, "sigma of the start's heading (rad); 4 degrees");
-    field(
-        "gyro_sigma_rad", self.gyro_sigma_rad,
-        "sigma of the turn between two scans by the gyro (rad); the paper's steps of 0.25 degrees");
-    field("max_age_s", self.max_age_s,
-          "odometry or gyro fed longer before or after the scan than this is not used for it (s)");
-    field(
-        "prior_floor_m", self.prior_floor_m,
-        "the predicted pose counts as no surer than this (m): the map's errors that one scan sees "
-        "are seen again by the next");
-    field("prior_floor_rad", self.prior_floor_rad, "the same for the heading (rad)");
-    field("gate_chi_square", self.gate_chi_square,
-          "a fit farther than this from the predicted pose is refused; far beyond chance (7.3 "
-          "sigma), "
-          "because wheels slip more than their noise says");
-    field("few_pairs_gate_chi_square", self.few_pairs_gate_chi_square,
-          "the same for a fit of few pairs, which must not overrule dead reckoning; chi-square of "
-          "three degrees of freedom at 1e-3");
-    field("few_pairs", self.few_pairs, "a fit of fewer pairs than this has few");
-    field(
-        "map_stretch_m", self.map_stretch_m,
-        "length of wall that shares one error of the plan (m): as far as that, the plan turns the "
-        "heading");
-    field("min_pairs", self.min_pairs, "a fit of fewer pairs is refused");
-    field("max_dropped_ratio", self.max_dropped_ratio,
-          "a fit that had to drop a larger part of its pairs is refused");
-  }
-};
-
-/// Everything that the cycle needs to know beside the map.
-struct LocalizerSettings {
-  ScannerModel scanner;
-  OdometryNoise odometry;
-  PredictionOptions prediction;
-  ExtractionOptions extraction;
-  MatchingOptions matching;
-  EstimationOptions estimation;
-  LocalizerOptions localizer;
-};
 
 /// The paper's cycle (Fig. 1): scan after scan, where the vehicle is in the map.
 ///
@@ -114,43 +55,94 @@ class Localizer {
   const FeatureList& sensed_features() const { return extractor_.features(); }
   const MatchResult& match() const { return match_; }
   const FeatureFit& fit() const { return fit_; }
+  const ScanFit& scan_fit() const { return scan_fit_; }
+  const Refiner& refiner() const { return refiner_; }
+  const MapError& map_error() const { return map_error_.error(); }
+  const StampCounts& stamp_counts() const { return stamps_.counts(); }
   const Visibility& visibility() const { return visibility_; }
   const Extractor& extractor() const { return extractor_; }
   const Timings& timings() const { return timings_; }
 
  private:
+  // The page: localizer.cpp.
   const Estimate& turn(const LaserScan& scan, const std::optional<Pose2>& odom_from_vehicle);
   const Estimate& skip(double stamp);
+  void find_by_features();
+
+  // The stages: stages.cpp, and all_points.cpp for `refine_pose`.
   void predict_pose(double stamp, const std::optional<Pose2>& odom_from_vehicle);
-  void predict_features(const LaserScan& scan);
-  void extract_features(const LaserScan& scan);
+  void deskew_scan(const LaserScan& scan);
+  SweepPath sweep_path(const Twist2& twist, const LaserScan& scan) const;
+  bool wants_features() const;
+  void forget_features();
+  void predict_features();
+  void extract_features();
   void match_features();
   void estimate_pose();
+  void refine_pose(const LaserScan& scan);
+  void track_pose();
   void judge(double stamp);
-  bool is_believable() const;
+
+  bool uses_points() const { return settings_.estimator != Estimator::features; }
+  bool features_are_believable() const;
+  PoseWithCovariance vehicle_by_features() const;
+  const ScanFit& refine_from(const RefinementInput& input, const PoseWithCovariance& start);
+  PoseWithCovariance loose(const PoseWithCovariance& prediction) const;
+  PoseWithCovariance pose_of(const ScanFit& fit, const PoseWithCovariance& prior) const;
+  ScanFit refine_rival(const RefinementInput& input);
+  bool is_poor(const ScanFit& fit, const PoseWithCovariance& prediction) const;
+  void search(const RefinementInput& input, const PoseWithCovariance& prediction);
+  void change_places(const RefinementInput& input);
+  void weigh_rival(const RefinementInput& input, const ScanFit& rival_fit);
   Matrix3d floored(const Matrix3d& covariance) const;
   Matrix3d shared_map_error() const;
+
+  /// Another pose that may be the true one, carried along until the scans have decided.
+  struct Rival {
+    PoseWithCovariance at;
+    double lead = 0.0;   ///< of the estimate over the rival, log of the odds
+    double way_m = 0.0;  ///< since they parted
+  };
 
   const LineMap& map_;
   LocalizerSettings settings_;
   PoseHistory odometry_;
   PoseHistory gyro_;
+  StampWatch stamps_;
+  MapErrorEstimator map_error_;
+  PoseTracker tracker_;
 
-  PoseWithCovariance last_;
+  // Of the last scan.
   std::optional<Pose2> last_odometry_;
   std::optional<double> last_gyro_;
-  PoseWithCovariance predicted_;
   Pose2 vehicle_from_laser_;
-  PoseWithCovariance predicted_laser_;
+  Trust trust_;
+  double way_m_ = 0.0;  // since the last scan, by dead reckoning
+  std::optional<Rival> rival_;
 
+  // Of this turn.
+  PoseWithCovariance predicted_;
+  PoseWithCovariance predicted_laser_;
+  std::optional<SweepPrior> motion_;
+  const LaserScan* still_ = nullptr;  // the scan as taken at its stamp
+  ScannerModel scanner_;
+  bool uses_features_ = false;
+  bool believed_ = false;
+  bool ambiguous_ = false;
+
+  Deskewer deskewer_;
+  LaserScan deskewed_;
   Visibility visibility_;
   Extractor extractor_;
   Matcher matcher_;
   FeatureEstimator estimator_;
+  Refiner refiner_;
   FeatureList model_;
   FeatureList model_in_laser_;
   MatchResult match_;
   FeatureFit fit_;
+  ScanFit scan_fit_;
+  std::vector<WallEvidence> walls_;
   Timings timings_;
   Estimate estimate_;
 };

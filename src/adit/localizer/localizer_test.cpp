@@ -31,7 +31,7 @@ LocalizerSettings settings() {
   s.scanner.range_sigma_m = 0.005;
   s.scanner.quantisation_m = 0.01;
   s.scanner.max_range_m = kMaxRange;
-  s.estimation.map_sigma_m = 0.0;
+  s.map.sigma_m = 0.0;
   return s;
 }
 
@@ -351,7 +351,7 @@ TEST_F(LocalizerTest, NothingIsKnownInAnEmptyMap) {
 
 TEST_F(LocalizerTest, TheErrorThatThePlanSharesStandsBesideTheFilter) {
   LocalizerSettings rough = settings();
-  rough.estimation.map_sigma_m = 0.2;
+  rough.map.sigma_m = 0.2;
   rough.localizer.map_stretch_m = 4.0;
   for (const Estimate& e : run(drive, rough)) {
     EXPECT_GT(e.covariance(0, 0), 0.2 * 0.2);

@@ -6,11 +6,16 @@ namespace adit {
 
 /// How long the stages of one turn of the cycle took (s).
 struct Timings {
+  double deskew = 0.0;
   double prediction = 0.0;
   double extraction = 0.0;
   double matching = 0.0;
   double estimation = 0.0;
-  double total() const { return prediction + extraction + matching + estimation; }
+  double refinement = 0.0;
+  double search = 0.0;
+  double total() const {
+    return deskew + prediction + extraction + matching + estimation + refinement + search;
+  }
 };
 
 /// Writes the life time of the object to `seconds`.

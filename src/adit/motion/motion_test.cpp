@@ -68,6 +68,8 @@ TEST(PoseHistory, SortsLatePosesReplacesEqualStampsAndStaysBounded) {
   history.add({2.0, {2, 0, 0}});
   EXPECT_EQ(history.size(), 3u);
   EXPECT_NEAR(history.at(2.5, 0.0)->x, 2.5, 1e-12);
+  EXPECT_EQ(history.poses().front().stamp, 1.0);
+  EXPECT_EQ(history.poses().back().stamp, 3.0);
   for (int i = 0; i < 100; ++i) history.add({10.0 + i, {10.0 + i, 0, 0}});
   EXPECT_LE(history.size(), 8u);
   EXPECT_NEAR(history.at(108.5, 0.0)->x, 108.5, 1e-12);

@@ -38,6 +38,17 @@ std::optional<Pose2> PoseHistory::at(double stamp, double max_age_s) const {
   return interpolate(before.pose, after->pose, fraction);
 }
 
+bool PoseHistory::covers(double stamp, double span_s, double gap_s) const {
+  const double end = stamp + span_s;
+  auto next = std::upper_bound(poses_.begin(), poses_.end(), stamp,
+                               [](double time, const StampedPose& p) { return time < p.stamp; });
+  if (next == poses_.begin()) return false;
+  for (; (next - 1)->stamp < end - gap_s; ++next) {
+    if (next == poses_.end() || next->stamp - (next - 1)->stamp > gap_s) return false;
+  }
+  return true;
+}
+
 Pose2 interpolate(const Pose2& from, const Pose2& to, double fraction) {
   return {from.x + fraction * (to.x - from.x), from.y + fraction * (to.y - from.y),
           wrap_angle(from.theta + fraction * angle_between(from.theta, to.theta))};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "adit/motion/odometry.hpp"
@@ -19,11 +20,17 @@ class PoseHistory {
   void clear() { poses_.clear(); }
   bool empty() const { return poses_.empty(); }
   std::size_t size() const { return poses_.size(); }
+  /// In order of time.
+  std::span<const StampedPose> poses() const { return poses_; }
 
   /// The pose at a time: interpolated (translation linearly, heading along the smaller turn), or
   /// the first or last pose where the time lies before or after all by no more than `max_age_s`.
   /// Absent otherwise.
   std::optional<Pose2> at(double stamp, double max_age_s) const;
+
+  /// Whether from this stamp on, for this span, no poses are farther apart than the gap, and the
+  /// span ends no farther than that from a pose.
+  bool covers(double stamp, double span_s, double gap_s) const;
 
  private:
   std::size_t capacity_;

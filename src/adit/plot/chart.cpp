@@ -26,6 +26,7 @@ class Scale {
     const bool has_points = !box_.is_empty();
     if (!has_points) box_ = {Vector2d(0.0, 0.0), Vector2d(1.0, 1.0)};
     for (const ChartLevel& level : chart.levels) extend({box_.min.x(), level.value});
+    for (const ChartBand& band : chart.bands) widen(band);
     if (has_points && !log_y_ && chart.from_zero) extend({box_.min.x(), 0.0});
     const bool flat = !(box_.max.y() > box_.min.y());
     if (!(box_.max.x() > box_.min.x()))
@@ -54,6 +55,12 @@ class Scale {
   void extend(const Vector2d& p) {
     const Vector2d value(p.x(), level(p.y()));
     if (value.allFinite()) box_.extend(value);
+  }
+
+  void widen(const ChartBand& band) {
+    for (const double x : {band.from, band.to}) {
+      if (std::isfinite(x)) box_.extend({x, box_.min.y()});
+    }
   }
 
   bool log_y_;
@@ -88,6 +95,19 @@ void draw_axes(Painter& painter, const Chart& chart, const Scale& scale, const P
     painter.line(at, at - Vector2d(kTick, 0.0), thin);
     painter.text(at - Vector2d(kTick + kTextGap, 0.0), y_text(chart, ys, y), kAxisText, {-1, 0});
   }
+}
+
+void draw_band(Painter& painter, const ChartBand& band, const Scale& scale, const PageRect& plot) {
+  constexpr double kNarrowest = 0.6;  // points; a single value of many must still be seen
+  const double from = scale({band.from, 1.0}).x();
+  const double to = scale({band.to, 1.0}).x();
+  if (!std::isfinite(from) || !std::isfinite(to)) return;
+  const double half = 0.5 * std::max(to - from, kNarrowest);
+  const double left = std::max(plot.min.x(), 0.5 * (from + to) - half);
+  const double right = std::min(plot.max().x(), 0.5 * (from + to) + half);
+  painter.polygon(std::array{Vector2d(left, plot.min.y()), Vector2d(right, plot.min.y()),
+                             Vector2d(right, plot.max().y()), Vector2d(left, plot.max().y())},
+                  band.fill, std::nullopt);
 }
 
 void draw_series(Painter& painter, const ChartSeries& series, const Scale& scale,
@@ -127,6 +147,7 @@ void Chart::draw(Painter& painter, const PageRect& area) const {
 
   const Scale scale(*this, plot);
   LabelPlacer placer(plot);
+  for (const ChartBand& band : bands) draw_band(painter, band, scale, plot);
   for (const ChartLevel& level : levels) {
     const double y = scale({0.0, level.value}).y();
     if (std::isfinite(y)) painter.line({plot.min.x(), y}, {plot.max().x(), y}, level.stroke);

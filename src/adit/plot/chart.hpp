@@ -27,6 +27,13 @@ struct ChartLevel {
   Stroke stroke{kGrey, 0.7, Dash::dashed};
 };
 
+/// A stretch of the x axis that is shaded from bottom to top, behind the curves.
+struct ChartBand {
+  double from = 0.0;
+  double to = 0.0;
+  Colour fill;
+};
+
 /// Words at a point of a chart.
 struct ChartLabel {
   Vector2d at = Vector2d::Zero();
@@ -41,6 +48,7 @@ struct Chart {
   std::vector<ChartSeries> series;
   std::vector<ChartLevel> levels;
   std::vector<ChartLabel> labels;
+  std::vector<ChartBand> bands;
   bool log_y = false;         ///< values that are not above zero are left out
   bool from_zero = true;      ///< the linear y axis includes zero
   double height_ratio = 0.5;  ///< height over width

@@ -110,6 +110,19 @@ Box box_around(const FeatureList& features, const Pose2& map_from_features) {
   return box;
 }
 
+Box box_around(std::span<const Pose2> poses) {
+  Box box;
+  for (const Pose2& pose : poses) {
+    if (pose.is_finite()) box.extend(pose.translation());
+  }
+  return box;
+}
+
+Box joined(Box a, const Box& b) {
+  a.extend(b);
+  return a;
+}
+
 std::vector<Vector2d> translations(std::span<const Pose2> poses) {
   std::vector<Vector2d> places;
   places.reserve(poses.size());

@@ -50,6 +50,12 @@ void explain_features(Sheet& sheet, const FeatureStyle& style, const std::string
 /// The ends and vertices of the features, in the map.
 Box box_around(const FeatureList& features, const Pose2& map_from_features);
 
+/// The places of the poses, of those that are finite.
+Box box_around(std::span<const Pose2> poses);
+
+/// The smallest box that holds both.
+Box joined(Box a, const Box& b);
+
 std::vector<Vector2d> translations(std::span<const Pose2> poses);
 
 }  // namespace adit

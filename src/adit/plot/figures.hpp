@@ -124,11 +124,13 @@ Result<void> draw_paths(const std::string& path, std::span<const Segment> plan,
                         std::span<const Pose2> surveyed, std::span<const Pose2> estimated,
                         const PictureOptions& options = {});
 
-/// One pose of a run; covariance over (x, y, theta) in the map frame.
+/// One pose of a run, and what is known of it.
 struct TrajectoryPoint {
   Pose2 pose;
-  std::optional<Matrix3d> covariance;
+  std::optional<Matrix3d> covariance;  ///< over (x, y, theta) in the map frame
   std::optional<Status> status;
+  std::optional<double> protection_m;  ///< infinite: no level can be given
+  std::optional<double> error_m;       ///< distance from the truth, where that is known
 };
 
 /// What is drawn of a run beside its path.
@@ -149,7 +151,7 @@ struct TrajectoryOptions {
 };
 
 /// A run over the plan, coloured by status, with ellipses at intervals along it; `reference`, if
-/// any, dotted.
+/// any, dotted. Below it, where levels are given, the protection level of each pose and its error.
 Result<void> draw_trajectory(const std::string& path, std::span<const Segment> plan,
                              std::span<const TrajectoryPoint> run,
                              std::span<const Pose2> reference = {},

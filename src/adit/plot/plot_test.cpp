@@ -148,6 +148,8 @@ std::vector<Pose2> drive(int count) {
   return poses;
 }
 
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
 std::vector<TrajectoryPoint> run_along(const std::vector<Pose2>& poses) {
   constexpr std::array<Status, 4> kAll{Status::ok, Status::degraded, Status::ambiguous,
                                        Status::lost};
@@ -155,7 +157,10 @@ std::vector<TrajectoryPoint> run_along(const std::vector<Pose2>& poses) {
   for (std::size_t i = 0; i < poses.size(); ++i) {
     Matrix3d covariance = Matrix3d::Identity() * 0.01;
     if (i % 7 == 3) covariance(0, 0) = std::numeric_limits<double>::infinity();
-    run.push_back({poses[i], covariance, kAll[i * 4 / poses.size()]});
+    const Status status = kAll[i * 4 / poses.size()];
+    const bool is_given = status == Status::ok || status == Status::degraded;
+    const double level = is_given ? 0.2 + 0.01 * static_cast<double>(i % 5) : kInfinite;
+    run.push_back({poses[i], covariance, status, level, 0.01});
   }
   return run;
 }

@@ -4,6 +4,7 @@
 
 #include "adit/scan/laser_scan.hpp"
 #include "adit/scan/scanner_model.hpp"
+#include "adit/scan/sweep_timing.hpp"
 
 namespace adit {
 namespace {
@@ -40,6 +41,42 @@ TEST(LaserScan, ACircleClosesWhenTheNextBeamWouldBeTheFirst) {
   scan.ranges.assign(180, 1.0);
   scan.bearing_step = radians(1.0);
   EXPECT_FALSE(scan.is_full_circle());
+}
+
+TEST(LaserScan, BearingsOfItsOwnComeBeforeTheEvenFan) {
+  LaserScan scan;
+  scan.bearing_step = kTwoPi / 100;
+  scan.ranges.assign(100, 1.0);
+  EXPECT_EQ(scan.bearing(3), 3 * scan.bearing_step);
+  for (int i = 0; i < 100; ++i) scan.bearings.push_back(0.1 + i * scan.bearing_step);
+  EXPECT_EQ(scan.bearing(3), 0.1 + 3 * scan.bearing_step);
+  EXPECT_EQ(scan.beams_of_one_turn(), 100u);
+  // Spread over more than a turn, the last repeat the first.
+  for (double& bearing : scan.bearings) bearing *= 1.05;
+  scan.bearing_step *= 1.05;
+  EXPECT_TRUE(scan.is_full_circle());
+  EXPECT_EQ(scan.beams_of_one_turn(), 95u);
+  for (double& bearing : scan.bearings) bearing *= -1.0;
+  scan.bearing_step *= -1.0;
+  EXPECT_EQ(scan.beams_of_one_turn(), 95u);
+}
+
+TEST(SweepTiming, TheStampNamesAMomentOfTheSweep) {
+  ScannerModel model;
+  model.sweep_s = 0.2;
+  const auto times = [&](SweepMoment stamp) {
+    model.stamp = stamp;
+    return sweep_timing(model, 100);
+  };
+  EXPECT_DOUBLE_EQ(times(SweepMoment::start).at(0), 0.0);
+  EXPECT_DOUBLE_EQ(times(SweepMoment::start).at(99), 0.198);
+  EXPECT_DOUBLE_EQ(times(SweepMoment::middle).at(0), -0.1);
+  EXPECT_NEAR(times(SweepMoment::middle).at(50), 0.0, 1e-15);
+  EXPECT_DOUBLE_EQ(times(SweepMoment::end).at(0), -0.2);
+  EXPECT_NEAR(times(SweepMoment::end).at(99), -0.002, 1e-15);
+  model.sweep_s = 0.0;
+  EXPECT_EQ(times(SweepMoment::end).at(70), 0.0);
+  EXPECT_EQ(sweep_timing(model, 0).step_s, 0.0);
 }
 
 TEST(ScannerModel, RoundingAddsToTheNoise) {

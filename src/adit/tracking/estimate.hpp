@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "adit/features/features.hpp"
@@ -27,6 +28,8 @@ struct Estimate {
   Status status = Status::lost;
   bool dead_reckoned = true;  ///< the scan did not contribute
   double protection_m = std::numeric_limits<double>::infinity();
+  /// The direction (unit vector, map axes) that the scan does not show; none where it shows all.
+  std::optional<Vector2d> open_direction;
   double chi_square = 0.0;  ///< of the fit, with `degrees_of_freedom`
   int degrees_of_freedom = 0;
   std::span<const FeaturePair> pairs;  ///< matched features; views the localizer's buffers

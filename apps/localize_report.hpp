@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "adit/calibration/log_settings.hpp"
+#include "adit/io/json.hpp"
+#include "adit/map/line_map.hpp"
+#include "replay.hpp"
+
+namespace adit {
+
+/// report.json of `adit localize`: what was read, with which settings, and how it went. Holds no
+/// wall-clock times.
+Json localize_report(const LogSettings& settings, const MapReport& cleaning, const LogSummary& log,
+                     const Replay& replay);
+
+/// timings.json: microseconds by stage, over the scans that had it.
+Json timings_report(const std::vector<Timings>& timings);
+
+/// A few lines for the terminal: statuses, how sure the poses are, and stamps that were odd.
+std::string localize_summary(const Replay& replay);
+
+}  // namespace adit

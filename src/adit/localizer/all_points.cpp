@@ -1,0 +1,135 @@
+// The stage that fits all points: which of several poses near the prediction explains the scan.
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "adit/localizer/fit_quality.hpp"
+#include "adit/localizer/localizer.hpp"
+
+namespace adit {
+
+/// All points of the scan against the map, from where the features say or, without them, from the
+/// prediction.
+void Localizer::refine_pose(const LaserScan& scan) {
+  scan_fit_ = ScanFit{};
+  ambiguous_ = false;
+  if (!uses_points()) return;
+  const RefinementInput input{map_, scan, scanner_, map_error_.error(), motion_};
+  const PoseWithCovariance prediction{predicted_.pose, floored(predicted_.covariance)};
+  std::optional<ScanFit> rival_fit;
+  bool is_good = false;
+  {
+    const Stopwatch watch(timings_.refinement);
+    if (rival_) rival_fit = refine_rival(input);
+    const bool by_features = uses_features_ && features_are_believable();
+    scan_fit_ = refine_from(input, by_features ? vehicle_by_features() : prediction);
+    is_good = !is_poor(scan_fit_, prediction);
+  }
+  if (!is_good && settings_.estimator == Estimator::full && !uses_features_) find_by_features();
+  const Stopwatch watch(timings_.search);
+  if (!is_good) search(input, prediction);
+  if (rival_fit) weigh_rival(input, *rival_fit);
+}
+
+/// As a prior: slipping wheels may have spoilt it beyond its covariance.
+PoseWithCovariance Localizer::loose(const PoseWithCovariance& prediction) const {
+  return {prediction.pose, settings_.localizer.prior_inflation * floored(prediction.covariance)};
+}
+
+const ScanFit& Localizer::refine_from(const RefinementInput& input,
+                                      const PoseWithCovariance& start) {
+  return refiner_.refine(input, loose(predicted_), start, settings_.refinement);
+}
+
+bool Localizer::is_poor(const ScanFit& fit, const PoseWithCovariance& prediction) const {
+  const SearchOptions& options = settings_.search;
+  const FitQuality quality = quality_of(fit);
+  const Vector3d off = difference(prediction.pose, fit.pose);
+  return !quality.converged || quality.evidence_ratio < options.poor_evidence_ratio ||
+         quality.behind_ratio > options.poor_behind_ratio ||
+         off.dot(prediction.covariance.inverse() * off) > options.poor_chi_square;
+}
+
+/// The most plausible fit near the prediction: from the features, from the prediction itself, from
+/// the best of a lattice around it. Another that is about as plausible becomes a rival.
+void Localizer::search(const RefinementInput& input, const PoseWithCovariance& prediction) {
+  const PoseLattice lattice(prediction, settings_.search);
+  std::array<PoseWithCovariance, 3> starts;
+  std::size_t count = 0;
+  if (uses_features_ && features_are_believable()) starts[count++] = vehicle_by_features();
+  starts[count++] = prediction;
+  starts[count++] = {refiner_.most_likely(input, prediction, lattice.poses(), lattice.spread(),
+                                          settings_.refinement),
+                     lattice.spread()};
+  const double shared = shared_ratio(scan_fit_);
+  std::array<ScanFit, 3> fits;
+  std::array<double, 3> scores{};
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    fits[i] = refine_from(input, starts[i]);
+    scores[i] = fits[i].converged ? plausibility(fits[i], prediction, shared)
+                                  : -std::numeric_limits<double>::infinity();
+    if (scores[i] > scores[best]) best = i;
+  }
+  for (std::size_t i = 0; i < count && !rival_; ++i) {
+    if (i == best || !fits[i].converged || !elsewhere(fits[i], fits[best])) continue;
+    const double gap = scores[best] - scores[i];
+    if (gap < settings_.status.rival_gain)
+      rival_ = Rival{pose_of(fits[i], loose(predicted_)), gap, 0.0};
+  }
+  scan_fit_ = refine_from(input, starts[best]);
+}
+
+/// The rival stays where its own dead reckoning leaves it: the walls that it holds for wrong must
+/// not draw it to the estimate.
+ScanFit Localizer::refine_rival(const RefinementInput& input) {
+  const PoseWithCovariance at{rival_->at.pose, floored(rival_->at.covariance)};
+  return refiner_.refine(input, at, at, settings_.refinement);
+}
+
+/// A fit with its prior as a pose: where the last step leads.
+PoseWithCovariance Localizer::pose_of(const ScanFit& fit, const PoseWithCovariance& prior) const {
+  const Matrix3d confidence = prior.covariance.inverse();
+  const Matrix3d covariance = (fit.information + confidence).inverse();
+  const Vector3d move = covariance * (fit.score + confidence * difference(fit.pose, prior.pose));
+  return {{fit.pose.x + move.x(), fit.pose.y + move.y(), wrap_angle(fit.pose.theta + move.z())},
+          covariance};
+}
+
+/// Lets the scan decide between the pose and its rival, who both came here by dead reckoning.
+/// Before the vehicle has gone some way from where they parted, one wall may speak for both scans.
+void Localizer::weigh_rival(const RefinementInput& input, const ScanFit& rival_fit) {
+  const StatusOptions& options = settings_.status;
+  const bool stands = explains(quality_of(rival_fit), options) && elsewhere(rival_fit, scan_fit_);
+  const bool as_good = quality_of(rival_fit).evidence_ratio >
+                       options.rival_evidence_ratio * quality_of(scan_fit_).evidence_ratio;
+  if (stands) {
+    const double gain = shared_ratio(scan_fit_) * (scan_fit_.log_evidence - rival_fit.log_evidence);
+    rival_->lead = std::clamp(rival_->lead + gain, -options.rival_gain, options.rival_gain);
+    rival_->at = pose_of(rival_fit, rival_->at);
+  }
+  if (rival_->lead < -options.ambiguous_gain) {
+    change_places(input);
+    return;
+  }
+  if (rival_->way_m > options.rival_way_m && !(stands && as_good)) {
+    rival_.reset();
+    return;
+  }
+  ambiguous_ = stands && std::abs(rival_->lead) < options.ambiguous_gain;
+}
+
+/// The scans speak for the rival: it becomes the estimate, and the estimate its rival.
+void Localizer::change_places(const RefinementInput& input) {
+  const PoseWithCovariance beaten = predicted_;
+  tracker_.start(rival_->at);
+  predicted_ = rival_->at;
+  rival_->at = beaten;
+  rival_->lead = -rival_->lead;
+  scan_fit_ = refine_from(input, predicted_);
+}
+
+}  // namespace adit

@@ -1,0 +1,197 @@
+#include "adit/refinement/beam_residuals.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace adit {
+namespace {
+
+// The map looks the same from places no farther apart than this, but for a beam at an edge (m).
+constexpr double kSamePlace = 0.01;
+
+// A beam that ends farther than this from the wall in its way met something else, no neighbour (m).
+constexpr double kFarOff = 1.5;
+
+// How much farther than the farthest return the map is looked at (m): walls that are gone.
+constexpr double kBeyondReturns = 2.0;
+
+/// How far (m) a return lies along its beam from a wall, if by less than `least`; else `least`.
+double distance_along(const WallLine& line, const Vector2d& end, const Vector2d& direction,
+                      double least) {
+  constexpr double kLeastCosine = 0.1;    // a flatter beam does not tell which of two walls it met
+  constexpr double kEndTolerance = 0.02;  // m; walls that are drawn to meet
+  const double off = line.normal.dot(end - line.foot);
+  if (!(std::abs(off) < least)) return least;
+  const double cosine = line.normal.dot(direction);
+  if (std::abs(cosine) < kLeastCosine || !(std::abs(off) < least * std::abs(cosine))) return least;
+  const double back = off / cosine;
+  const double along = line.along.dot(end - back * direction - line.foot);
+  const bool within = along > -kEndTolerance && along < line.length + kEndTolerance;
+  return within ? std::abs(back) : least;
+}
+
+}  // namespace
+
+void BeamResiduals::set_scan(const LaserScan& scan, const ScannerModel& scanner) {
+  const std::size_t count = scan.ranges.size();
+  scan_ = &scan;
+  swept_map_ = nullptr;
+  max_range_ = scanner.no_return_from(scan.max_range);
+  min_range_ = scanner.min_range_m;
+  reach_ = std::min(max_range_, longest_return() + kBeyondReturns);
+  noise_reach_ = 2.0 * scanner.beam_sigma_m();
+  timing_ = sweep_timing(scanner, count);
+  ranges_.resize(count);
+  walls_.resize(count);
+  beams_.reserve(count);
+  if (directions_.size() == count && first_bearing_ == scan.first_bearing &&
+      bearing_step_ == scan.bearing_step) {
+    return;
+  }
+  first_bearing_ = scan.first_bearing;
+  bearing_step_ = scan.bearing_step;
+  directions_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) directions_[i] = unit_vector(scan.bearing(i));
+}
+
+/// The farthest return (m): beyond it no wall can be told from none.
+double BeamResiduals::longest_return() const {
+  double longest = 0.0;
+  for (std::size_t i = 0; i < scan_->ranges.size(); ++i) {
+    if (is_return(i)) longest = std::max(longest, scan_->ranges[i]);
+  }
+  return longest;
+}
+
+bool BeamResiduals::is_return(std::size_t beam) const {
+  return scan_->has_return(beam) && scan_->ranges[beam] < max_range_ &&
+         scan_->ranges[beam] >= min_range_;
+}
+
+Pose2 BeamResiduals::laser_at(const Pose2& map_from_vehicle, const SweepPath& path,
+                              const Twist2& correction, double tau) const {
+  return map_from_vehicle * path.at(tau) * moved(correction, tau) * scan_->vehicle_from_laser;
+}
+
+std::size_t BeamResiduals::station_count(const SweepPath& path, double spacing) const {
+  constexpr double kMostStations = 64.0;
+  if (!(path.span_s > 0.0)) return 1;
+  double way = 0.0;
+  Pose2 last = path.stamp_from_vehicle.front() * scan_->vehicle_from_laser;
+  for (const Pose2& vehicle : path.stamp_from_vehicle) {
+    const Pose2 laser = vehicle * scan_->vehicle_from_laser;
+    way += (laser.translation() - last.translation()).norm();
+    last = laser;
+  }
+  // A turn bends the beams' spacing: the same number of stations at least as samples that turn.
+  const double turn = std::abs(
+      angle_between(path.stamp_from_vehicle.front().theta, path.stamp_from_vehicle.back().theta));
+  const double count = std::clamp(std::ceil(std::max(way, turn) / spacing), 1.0, kMostStations);
+  return std::min(static_cast<std::size_t>(count), std::max<std::size_t>(1, directions_.size()));
+}
+
+void BeamResiduals::compute(const LineMap& map, const Pose2& map_from_vehicle,
+                            const SweepPath& path, const Twist2& correction,
+                            const RefinementOptions& options, std::size_t stride) {
+  beams_.clear();
+  neighbours_.reset(map, options.neighbour_reach_m);
+  unmapped_ = 0;
+  const std::size_t count = directions_.size();
+  const std::size_t stations = station_count(path, options.station_spacing_m);
+  const double least_cosine = std::cos(options.max_incidence_rad);
+  for (std::size_t k = 0; k < stations; ++k) {
+    Station station;
+    station.begin = k * count / stations;
+    station.end = (k + 1) * count / stations;
+    const double begin = timing_.at(station.begin);
+    const double end = timing_.at(station.end);
+    station.tau = 0.5 * (begin + end);
+    station.laser = laser_at(map_from_vehicle, path, correction, station.tau);
+    if (end > begin) {
+      // Within a station the way and the turn are linear in time.
+      const Pose2 first = laser_at(map_from_vehicle, path, correction, begin);
+      const Pose2 last = laser_at(map_from_vehicle, path, correction, end);
+      station.velocity = (last.translation() - first.translation()) / (end - begin);
+      station.turn_rate = angle_between(first.theta, last.theta) / (end - begin);
+    }
+    look_from(map, station, map_from_vehicle.translation(), least_cosine, stride);
+  }
+}
+
+/// The wall that the beam met: the one in its way, or a neighbour that explains the range better
+/// where the scanner's noise cannot.
+const WallLine& BeamResiduals::wall_met(const WallLine& in_the_way, const Vector2d& origin,
+                                        const Vector2d& direction, double measured) {
+  const WallLine* best = &in_the_way;
+  const double cosine = in_the_way.normal.dot(direction);
+  const double range = in_the_way.normal.dot(in_the_way.foot - origin) / cosine;
+  double least = std::abs(measured - range);
+  if (!(least > noise_reach_ && least < kFarOff)) return *best;
+  const Vector2d end = origin + measured * direction;
+  for (const WallLine& other : neighbours_.of(in_the_way.wall)) {
+    const double distance = distance_along(other, end, direction, least);
+    if (!(distance < least)) continue;
+    least = distance;
+    best = &other;
+  }
+  return *best;
+}
+
+void BeamResiduals::look_from(const LineMap& map, const Station& station, const Vector2d& vehicle,
+                              double least_cosine, std::size_t stride) {
+  const std::size_t count = station.end - station.begin;
+  const RigidTransform map_from_laser(station.laser);
+  const Vector2d centre = station.laser.translation();
+  const bool moves = timing_.step_s != 0.0;
+  const double turn_per_beam = station.turn_rate * timing_.step_s;
+  const double first_turn = station.turn_rate * (timing_.at(station.begin) - station.tau);
+  const std::span<double> ranges(ranges_.data(), count);
+  const std::span<int> walls(walls_.data(), count);
+  if (!(&map == swept_map_ && (centre - swept_from_).norm() <= kSamePlace)) {
+    visibility_.sweep(map, centre, reach_);
+    swept_map_ = &map;
+    swept_from_ = centre;
+  }
+  visibility_.ranges(station.laser.theta + scan_->bearing(station.begin) + first_turn,
+                     bearing_step_ + turn_per_beam, ranges, walls);
+  WallLine wall;
+  for (std::size_t k = 0; k < count; k += stride) {
+    const std::size_t i = station.begin + k;
+    const bool has_return = is_return(i);
+    if (walls[k] < 0) {
+      unmapped_ += has_return ? 1 : 0;
+      continue;
+    }
+    if (walls[k] != wall.wall) wall = line_of(map, walls[k]);
+    Vector2d direction = map_from_laser.direction(directions_[i]);
+    Vector2d origin = centre;
+    const double tau = timing_.at(i);
+    if (moves) {
+      const double lag = tau - station.tau;
+      origin += lag * station.velocity;
+      const double turn = station.turn_rate * lag;
+      direction = (direction + turn * perpendicular(direction)) / std::sqrt(1.0 + turn * turn);
+    }
+    const WallLine& met = has_return ? wall_met(wall, origin, direction, scan_->ranges[i]) : wall;
+    double cosine = met.normal.dot(direction);
+    if (!(std::abs(cosine) > least_cosine)) continue;
+    BeamResidual& out = beams_.emplace_back();
+    out.normal = cosine < 0.0 ? met.normal : Vector2d(-met.normal);
+    out.stretch = -1.0 / std::abs(cosine);
+    out.range = out.normal.dot(met.foot - origin) * out.stretch;
+    out.residual = has_return ? scan_->ranges[i] - out.range : 0.0;
+    out.direction = direction;
+    out.hit = origin + out.range * direction;
+    // The laser's gradient (Censi 2007), and what turning the vehicle adds by the lever arm.
+    const Vector2d lever = origin - vehicle;
+    const double across =
+        out.normal.dot(out.range * perpendicular(direction) + perpendicular(lever));
+    out.gradient = Vector3d(out.normal.x(), out.normal.y(), across) * -out.stretch;
+    out.tau = tau;
+    out.beam = static_cast<int>(i);
+    out.wall = met.wall;
+    out.has_return = has_return;
+  }
+}
+
+}  // namespace adit

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <vector>
+
+#include "adit/geometry/pose2.hpp"
+#include "adit/map/line_map.hpp"
+#include "adit/motion/twist.hpp"
+#include "adit/refinement/options.hpp"
+#include "adit/refinement/sweep_path.hpp"
+#include "adit/refinement/wall_neighbours.hpp"
+#include "adit/scan/laser_scan.hpp"
+#include "adit/scan/scanner_model.hpp"
+#include "adit/scan/sweep_timing.hpp"
+#include "adit/visibility/visibility.hpp"
+
+namespace adit {
+
+/// One beam against the wall that the map has in its way.
+struct BeamResidual {
+  double residual = 0.0;                  ///< measured minus predicted range (m)
+  Vector3d gradient = Vector3d::Zero();   ///< of the predicted range, over the vehicle's pose
+  double stretch = 0.0;                   ///< range per metre that the wall lies off: 1 / (n . d)
+  double range = 0.0;                     ///< predicted (m)
+  double tau = 0.0;                       ///< time from the stamp (s)
+  Vector2d normal = Vector2d::Zero();     ///< of the wall, towards the scanner
+  Vector2d direction = Vector2d::Zero();  ///< of the beam (map axes)
+  Vector2d hit = Vector2d::Zero();        ///< where the beam meets the wall (map axes, m)
+  int beam = -1;                          ///< in the scan
+  int wall = -1;
+  bool has_return = false;
+};
+
+/// All beams of a scan against the map: residuals and gradients at a pose of the vehicle.
+///
+/// Keeps its buffers and the beams' directions: a second scan of the same fan allocates nothing.
+class BeamResiduals {
+ public:
+  /// Takes the scan; it must stay alive while the residuals are computed.
+  void set_scan(const LaserScan& scan, const ScannerModel& scanner);
+
+  /// Every beam that should meet a wall within range, not flatter than the options allow, in the
+  /// order of the scan. `path` is the motion during the sweep, `correction` a steady motion on top
+  /// of it. A vehicle on the move sees the map from several stations of its way.
+  /// With a stride only every so many beams.
+  void compute(const LineMap& map, const Pose2& map_from_vehicle, const SweepPath& path,
+               const Twist2& correction, const RefinementOptions& options, std::size_t stride = 1);
+
+  const std::vector<BeamResidual>& beams() const { return beams_; }
+  /// Beams with a return where the map has nothing in range.
+  int unmapped() const { return unmapped_; }
+
+ private:
+  struct Station {
+    std::size_t begin = 0;  // beams
+    std::size_t end = 0;
+    double tau = 0.0;                      // of its middle (s)
+    Pose2 laser;                           // at that time
+    Vector2d velocity = Vector2d::Zero();  // of the laser, map axes (m/s)
+    double turn_rate = 0.0;                // rad/s
+  };
+
+  Pose2 laser_at(const Pose2& map_from_vehicle, const SweepPath& path, const Twist2& correction,
+                 double tau) const;
+  std::size_t station_count(const SweepPath& path, double spacing) const;
+  void look_from(const LineMap& map, const Station& station, const Vector2d& vehicle,
+                 double least_cosine, std::size_t stride);
+  const WallLine& wall_met(const WallLine& in_the_way, const Vector2d& origin,
+                           const Vector2d& direction, double measured);
+
+  double longest_return() const;
+  bool is_return(std::size_t beam) const;
+
+  const LaserScan* scan_ = nullptr;
+  const LineMap* swept_map_ = nullptr;  // the last sweep's, and where it was taken
+  Vector2d swept_from_ = Vector2d::Zero();
+  double reach_ = 0.0;  // how far the map is looked at (m)
+  double max_range_ = 0.0;
+  double noise_reach_ = 0.0;  // a residual that the scanner's noise explains (m)
+  double min_range_ = 0.0;
+  SweepTiming timing_;
+  double first_bearing_ = 0.0;
+  double bearing_step_ = 0.0;
+  std::vector<Vector2d> directions_;
+  Visibility visibility_;
+  WallNeighbours neighbours_;
+  std::vector<double> ranges_;
+  std::vector<int> walls_;
+  std::vector<BeamResidual> beams_;
+  int unmapped_ = 0;
+};
+
+}  // namespace adit

@@ -1,0 +1,134 @@
+// Which wall a beam is compared with, and what becomes of beams without one; numbers worked out by
+// hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "adit/refinement/beam_residuals.hpp"
+#include "support/casting.hpp"
+
+namespace adit {
+namespace {
+
+using testing::kInfinity;
+using testing::map_of;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// Beams at every 10 degrees from the origin, all with this range.
+LaserScan star(double range) {
+  LaserScan scan;
+  scan.first_bearing = 0.0;
+  scan.bearing_step = radians(10.0);
+  scan.max_range = 20.0;
+  scan.ranges.assign(36, range);
+  return scan;
+}
+
+ScannerModel fine_scanner() {
+  ScannerModel scanner;
+  scanner.range_sigma_m = 0.01;
+  scanner.quantisation_m = 0.0;
+  scanner.max_range_m = 30.0;
+  scanner.min_range_m = 0.5;
+  return scanner;
+}
+
+std::vector<BeamResidual> beams_of(const LaserScan& scan, const LineMap& map,
+                                   const RefinementOptions& options = {}) {
+  BeamResiduals residuals;
+  residuals.set_scan(scan, fine_scanner());
+  residuals.compute(map, {}, {}, options);
+  return residuals.beams();
+}
+
+TEST(BeamResiduals, ABeamWithoutReturnIsThereAndSaysNothing) {
+  const LineMap map = map_of({{Vector2d(5.0, -20.0), Vector2d(5.0, 20.0)}});
+  for (const double none : {20.0, 25.0, kInfinity, kNan, 0.0, -1.0, 0.4}) {
+    LaserScan scan = star(5.2);
+    scan.ranges[1] = none;
+    const std::vector<BeamResidual> beams = beams_of(scan, map);
+    ASSERT_GT(beams.size(), 2u);
+    EXPECT_TRUE(beams[0].has_return);
+    EXPECT_NEAR(beams[0].residual, 0.2, 1e-9);
+    EXPECT_EQ(beams[1].beam, 1);
+    EXPECT_FALSE(beams[1].has_return) << none;
+    EXPECT_EQ(beams[1].residual, 0.0);
+    EXPECT_NEAR(beams[1].range, 5.0 / std::cos(radians(10.0)), 1e-9);
+  }
+}
+
+TEST(BeamResiduals, ReturnsWhereTheMapHasNothingAreCounted) {
+  const LineMap map = map_of({{Vector2d(5.0, -6.0), Vector2d(5.0, 6.0)}});
+  LaserScan scan = star(7.0);
+  scan.ranges[18] = 20.0;  // the beam that looks back
+  BeamResiduals residuals;
+  residuals.set_scan(scan, fine_scanner());
+  residuals.compute(map, {}, {}, {});
+  EXPECT_EQ(residuals.beams().size(), 11u);  // up to 50 degrees on either side
+  EXPECT_EQ(residuals.unmapped(), 24);
+  residuals.compute(map, {}, {}, {});
+  EXPECT_EQ(residuals.unmapped(), 24);
+}
+
+TEST(BeamResiduals, FlatBeamsAreLeftOut) {
+  const LineMap map = map_of({{Vector2d(2.0, -15.0), Vector2d(2.0, 15.0)}});
+  RefinementOptions options;
+  for (const double degrees : {75.0, 55.0, 15.0}) {
+    options.max_incidence_rad = radians(degrees);
+    const std::vector<BeamResidual> beams = beams_of(star(19.0), map, options);
+    EXPECT_EQ(beams.size(), 1u + 2u * static_cast<std::size_t>(degrees / 10.0));
+  }
+}
+
+/// A wall, and another so far behind it.
+LineMap doubled_wall(double apart) {
+  return map_of({{Vector2d(5.0, -6.0), Vector2d(5.0, 6.0)},
+                 {Vector2d(5.0 + apart, -6.0), Vector2d(5.0 + apart, 6.0)}});
+}
+
+TEST(BeamResiduals, ANeighbourExplainsABeamBetter) {
+  const BeamResidual beam = beams_of(star(5.05), doubled_wall(0.05)).front();
+  EXPECT_NEAR(beam.residual, 0.0, 1e-9);
+  EXPECT_NEAR(beam.range, 5.05, 1e-9);
+  EXPECT_NEAR(beam.hit.x(), 5.05, 1e-9);
+  EXPECT_NEAR(beam.gradient.x(), -1.0, 1e-9);
+}
+
+TEST(BeamResiduals, NoNeighbourIsAskedWhereTheNoiseExplainsAll) {
+  EXPECT_NEAR(beams_of(star(5.015), doubled_wall(0.02)).front().residual, 0.015, 1e-9);
+}
+
+TEST(BeamResiduals, AWallBeyondReachIsNoNeighbour) {
+  RefinementOptions options;
+  options.neighbour_reach_m = 0.3;
+  EXPECT_NEAR(beams_of(star(5.29), doubled_wall(0.29), options).front().residual, 0.0, 1e-9);
+  EXPECT_NEAR(beams_of(star(5.31), doubled_wall(0.31), options).front().residual, 0.31, 1e-9);
+}
+
+TEST(BeamResiduals, ANeighbourEndsWhereItEnds) {
+  const LineMap map =
+      map_of({{Vector2d(5.0, -6.0), Vector2d(5.0, 6.0)}, {Vector2d(5.1, 1.0), Vector2d(5.1, 6.0)}});
+  const std::vector<BeamResidual> beams = beams_of(star(5.1), map);
+  EXPECT_EQ(beams[0].beam, 0);
+  EXPECT_NEAR(beams[0].residual, 0.1, 1e-9);
+  LaserScan aside = star(5.1 / std::cos(radians(20.0)));
+  EXPECT_NEAR(beams_of(aside, map)[2].residual, 0.0, 1e-9);
+}
+
+TEST(BeamResiduals, AnotherFanOfAsManyBeamsIsAnotherFan) {
+  const LineMap map = map_of({{Vector2d(5.0, -6.0), Vector2d(5.0, 6.0)}});
+  BeamResiduals residuals;
+  LaserScan scan = star(5.0);
+  residuals.set_scan(scan, fine_scanner());
+  residuals.compute(map, {}, {}, {});
+  scan.first_bearing = radians(-5.0);
+  residuals.set_scan(scan, fine_scanner());
+  residuals.compute(map, {}, {}, {});
+  EXPECT_NEAR(residuals.beams().front().range, 5.0 / std::cos(radians(5.0)), 1e-9);
+}
+
+}  // namespace
+}  // namespace adit

@@ -1,0 +1,130 @@
+#include "adit/refinement/classification.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace adit {
+namespace {
+
+/// The logarithm of a product of many factors, with few logarithms.
+class LogProduct {
+ public:
+  void multiply(double factor) {
+    product_ *= factor;
+    if (product_ > 1e100 || product_ < 1e-100) {
+      log_ += std::log(product_);
+      product_ = 1.0;
+    }
+  }
+  double log() const { return log_ + std::log(product_); }
+
+ private:
+  double product_ = 1.0;
+  double log_ = 0.0;
+};
+
+}  // namespace
+
+void BeamClassifier::classify(std::span<const BeamResidual> beams,
+                              std::span<const double> variances, const RefinementOptions& options) {
+  find_ratios(beams, variances, options);
+  run_chain(options);
+  count(beams);
+}
+
+/// Something else stands anywhere before the wall, or, rarely, anywhere as far behind it.
+void BeamClassifier::find_ratios(std::span<const BeamResidual> beams,
+                                 std::span<const double> variances,
+                                 const RefinementOptions& options) {
+  size_ = beams.size();
+  const auto size = static_cast<Eigen::Index>(size_);
+  if (ratio_.size() < size) {  // grows only: the buffers of the longest scan stay
+    ratio_.resize(size);
+    on_wall_.resize(size);
+    other_.resize(size);
+  }
+  const double before = (1.0 - options.long_ratio) * std::sqrt(kTwoPi);
+  const double behind = options.long_ratio * std::sqrt(kTwoPi);
+  for (Eigen::Index k = 0; k < size; ++k) {
+    const BeamResidual& beam = beams[static_cast<std::size_t>(k)];
+    const double variance = variances[static_cast<std::size_t>(k)];
+    ratio_[k] = -0.5 * beam.residual * beam.residual / variance;
+    on_wall_[k] = beam.range / ((beam.residual < 0.0 ? before : behind) * std::sqrt(variance));
+  }
+  expected_ = expected_log_of(beams);
+  auto ratios = ratio_.head(size);
+  ratios = ratios.max(-200.0).exp() * on_wall_.head(size);
+  for (Eigen::Index k = 0; k < size; ++k) {
+    if (!beams[static_cast<std::size_t>(k)].has_return) ratio_[k] = 1.0;
+  }
+}
+
+/// Sum of the logs of the ratios that beams on walls have on average, where that is above one.
+double BeamClassifier::expected_log_of(std::span<const BeamResidual> beams) const {
+  const double mean_loss = std::exp(-0.5);  // of a normal residual
+  LogProduct product;
+  for (std::size_t k = 0; k < beams.size(); ++k) {
+    const double ratio = mean_loss * on_wall_[static_cast<Eigen::Index>(k)];
+    if (beams[k].has_return && ratio > 1.0) product.multiply(ratio);
+  }
+  return product.log();
+}
+
+/// Forward and backward pass over unnormalised probabilities, scaled now and then: products alone
+/// depend on the beam before.
+void BeamClassifier::run_chain(const RefinementOptions& options) {
+  constexpr Eigen::Index kScaleEvery = 8;
+  const auto size = static_cast<Eigen::Index>(size_);
+  const double leave = options.clutter_begin_ratio;
+  const double back = options.clutter_end_ratio;
+  LogProduct evidence;
+  double wall = back / (leave + back);
+  double other = 1.0 - wall;
+  for (Eigen::Index k = 0; k < size; ++k) {
+    wall *= ratio_[k];
+    if (k % kScaleEvery == 0) {
+      const double sum = wall + other;
+      evidence.multiply(sum);
+      wall /= sum;
+      other /= sum;
+    }
+    on_wall_[k] = wall;
+    other_[k] = other;
+    const double stays = wall * (1.0 - leave) + other * back;
+    other = wall * leave + other * (1.0 - back);
+    wall = stays;
+  }
+  evidence.multiply(wall + other);
+  log_evidence_ = evidence.log();
+  double wall_ahead = 1.0;  // likelihood of the beams after this one, by its class
+  double other_ahead = 1.0;
+  for (Eigen::Index k = size; k-- > 0;) {
+    on_wall_[k] *= wall_ahead;
+    other_[k] *= other_ahead;
+    const double seen = ratio_[k] * wall_ahead;
+    wall_ahead = (1.0 - leave) * seen + leave * other_ahead;
+    other_ahead = back * seen + (1.0 - back) * other_ahead;
+    if (k % kScaleEvery == 0) {
+      const double scale = 1.0 / (wall_ahead + other_ahead);
+      wall_ahead *= scale;
+      other_ahead *= scale;
+    }
+  }
+  on_wall_.head(size) /= on_wall_.head(size) + other_.head(size);
+}
+
+void BeamClassifier::count(std::span<const BeamResidual> beams) {
+  counts_ = BeamCounts{};
+  for (std::size_t k = 0; k < beams.size(); ++k) {
+    double& weight = on_wall_[static_cast<Eigen::Index>(k)];
+    if (!beams[k].has_return) {
+      weight = 0.0;
+      counts_.no_return += 1.0;
+      continue;
+    }
+    counts_.wall += weight;
+    (beams[k].residual < 0.0 ? counts_.before : counts_.behind) += 1.0 - weight;
+  }
+}
+
+}  // namespace adit

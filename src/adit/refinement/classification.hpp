@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "adit/refinement/beam_residuals.hpp"
+
+namespace adit {
+
+/// What the beams met, in beams.
+struct BeamCounts {
+  double wall = 0.0;       ///< the wall of the map
+  double before = 0.0;     ///< something before it
+  double behind = 0.0;     ///< something behind it: the wall is not there
+  double no_return = 0.0;  ///< nothing that came back
+  double explained() const { return before + wall; }
+  double returns() const { return wall + before + behind; }
+};
+
+/// Which beams met the wall of the map, as probabilities.
+///
+/// Two classes in a chain along the sweep: the map's wall, or something else. What stands in the
+/// way covers a run of neighbouring beams, so that a beam's neighbours speak for it too (forward
+/// and backward pass of a hidden Markov model). A beam without return says nothing.
+class BeamClassifier {
+ public:
+  /// `variances`: of each residual if it met the wall, everything counted.
+  void classify(std::span<const BeamResidual> beams, std::span<const double> variances,
+                const RefinementOptions& options);
+
+  /// Probability of each beam to have met the map's wall; 0 without return.
+  std::span<const double> on_wall() const { return {on_wall_.data(), size_}; }
+  const BeamCounts& counts() const { return counts_; }
+  /// Log of the probability density of all returns under both classes, against "something else"
+  /// everywhere: what the map explains of the scan.
+  double log_evidence() const { return log_evidence_; }
+  /// What that would be on average if every return came from the map's wall.
+  double expected_log_evidence() const { return expected_; }
+
+ private:
+  void find_ratios(std::span<const BeamResidual> beams, std::span<const double> variances,
+                   const RefinementOptions& options);
+  double expected_log_of(std::span<const BeamResidual> beams) const;
+  void run_chain(const RefinementOptions& options);
+  void count(std::span<const BeamResidual> beams);
+
+  Eigen::ArrayXd ratio_;  // of the densities, wall against something else; 1 says nothing
+  Eigen::ArrayXd on_wall_;
+  Eigen::ArrayXd other_;  // the chain's messages for the other class
+  std::size_t size_ = 0;
+  BeamCounts counts_;
+  double log_evidence_ = 0.0;
+  double expected_ = 0.0;
+};
+
+}  // namespace adit

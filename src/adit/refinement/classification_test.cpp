@@ -1,0 +1,220 @@
+#include "adit/refinement/classification.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "adit/simulation/random.hpp"
+
+namespace adit {
+namespace {
+
+constexpr double kSigma = 0.05;
+constexpr double kRange = 8.0;
+
+BeamResidual beam(double residual, double range = kRange, bool has_return = true) {
+  BeamResidual result;
+  result.residual = residual;
+  result.range = range;
+  result.has_return = has_return;
+  return result;
+}
+
+struct Classified {
+  explicit Classified(const std::vector<BeamResidual>& beams,
+                      const std::vector<double>& variances = {},
+                      const RefinementOptions& options = {}) {
+    const std::vector<double> same(beams.size(), kSigma * kSigma);
+    classifier.classify(beams, variances.empty() ? same : variances, options);
+  }
+  double on_wall(std::size_t beam) const { return classifier.on_wall()[beam]; }
+
+  BeamClassifier classifier;
+};
+
+/// Density of a return if the beam met the wall, against something else: that stands anywhere up to
+/// the wall's range before it or, less often, as far behind.
+double ratio_of(const BeamResidual& at, double variance, const RefinementOptions& options) {
+  if (!at.has_return) return 1.0;
+  const double wall =
+      std::exp(-0.5 * at.residual * at.residual / variance) / std::sqrt(kTwoPi * variance);
+  const double share = at.residual < 0.0 ? 1.0 - options.long_ratio : options.long_ratio;
+  return wall / (share / at.range);
+}
+
+struct Exact {
+  std::vector<double> on_wall;
+  double log_evidence = 0.0;
+};
+
+/// Every sequence of classes, one by one; a chain in its steady state.
+Exact enumerate(const std::vector<BeamResidual>& beams, const std::vector<double>& variances,
+                const RefinementOptions& options) {
+  const double leave = options.clutter_begin_ratio;
+  const double back = options.clutter_end_ratio;
+  const std::size_t count = beams.size();
+  Exact exact{std::vector<double>(count, 0.0), 0.0};
+  double total = 0.0;
+  for (unsigned sequence = 0; sequence < (1u << count); ++sequence) {
+    const auto wall = [&](std::size_t i) { return ((sequence >> i) & 1u) != 0; };
+    double probability = (wall(0) ? back : leave) / (leave + back);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (i > 0 && wall(i - 1)) probability *= wall(i) ? 1.0 - leave : leave;
+      if (i > 0 && !wall(i - 1)) probability *= wall(i) ? back : 1.0 - back;
+      if (wall(i)) probability *= ratio_of(beams[i], variances[i], options);
+    }
+    total += probability;
+    for (std::size_t i = 0; i < count; ++i) exact.on_wall[i] += wall(i) ? probability : 0.0;
+  }
+  for (double& one : exact.on_wall) one /= total;
+  exact.log_evidence = std::log(total);
+  return exact;
+}
+
+TEST(BeamClassifier, AgreesWithEverySequenceOfClasses) {
+  Random random(1);
+  for (int trial = 0; trial < 300; ++trial) {
+    RefinementOptions options;
+    options.clutter_begin_ratio = random.uniform(0.005, 0.5);
+    options.clutter_end_ratio = random.uniform(0.005, 0.5);
+    options.long_ratio = random.uniform(0.02, 0.6);
+    std::vector<BeamResidual> beams;
+    std::vector<double> variances;
+    for (int i = 0; i < 1 + random.below(10); ++i) {
+      const double sigma = random.uniform(0.01, 0.3);
+      variances.push_back(sigma * sigma);
+      beams.push_back(
+          beam(4.0 * sigma * random.normal(), random.uniform(0.5, 20.0), random.chance(0.8)));
+    }
+    const Exact exact = enumerate(beams, variances, options);
+    const Classified found(beams, variances, options);
+    ASSERT_EQ(found.classifier.on_wall().size(), beams.size());
+    EXPECT_NEAR(found.classifier.log_evidence(), exact.log_evidence, 1e-9);
+    for (std::size_t i = 0; i < beams.size(); ++i) {
+      EXPECT_NEAR(found.on_wall(i), beams[i].has_return ? exact.on_wall[i] : 0.0, 1e-9);
+    }
+  }
+}
+
+TEST(BeamClassifier, ARunOfShortBeamsStandsBeforeTheWall) {
+  std::vector<BeamResidual> beams(60, beam(0.0));
+  for (std::size_t i = 20; i < 30; ++i) beams[i].residual = -1.5;
+  const Classified found(beams);
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    if (i >= 20 && i < 30) {
+      EXPECT_LT(found.on_wall(i), 1e-6);
+    } else {
+      EXPECT_GT(found.on_wall(i), 0.98);
+    }
+  }
+  EXPECT_NEAR(found.classifier.counts().before, 10.0, 0.5);
+  EXPECT_NEAR(found.classifier.counts().behind, 0.0, 0.5);
+  EXPECT_NEAR(found.classifier.counts().wall, 50.0, 0.5);
+  EXPECT_NEAR(found.classifier.counts().explained(), 60.0, 0.5);
+}
+
+TEST(BeamClassifier, NeighboursSpeakForABeam) {
+  // A beam that lies 2.5 sigma short: on a wall it belongs to the wall, in a box to the box.
+  std::vector<BeamResidual> wall(21, beam(0.0));
+  std::vector<BeamResidual> box(21, beam(-20.0 * kSigma));
+  wall[10].residual = box[10].residual = -2.5 * kSigma;
+  EXPECT_GT(Classified(wall).on_wall(10), Classified(box).on_wall(10) + 0.3);
+}
+
+TEST(BeamClassifier, LoneDustIsBeforeTheWall) {
+  std::vector<BeamResidual> beams(60, beam(0.0));
+  for (std::size_t i = 5; i < 60; i += 11) beams[i].residual = -4.0;
+  const Classified found(beams);
+  for (std::size_t i = 5; i < 60; i += 11) EXPECT_LT(found.on_wall(i), 1e-6);
+  EXPECT_GT(found.on_wall(6), 0.98);
+  EXPECT_NEAR(found.classifier.counts().before, 5.0, 0.5);
+}
+
+TEST(BeamClassifier, LongBeamsAreBehindAWallThatIsNotThere) {
+  std::vector<BeamResidual> beams(60, beam(0.0));
+  for (std::size_t i = 30; i < 60; ++i) beams[i].residual = 2.0;
+  const Classified found(beams);
+  for (std::size_t i = 30; i < 60; ++i) EXPECT_LT(found.on_wall(i), 1e-6);
+  EXPECT_NEAR(found.classifier.counts().behind, 30.0, 0.5);
+  EXPECT_NEAR(found.classifier.counts().before, 0.0, 0.5);
+  EXPECT_NEAR(found.classifier.counts().returns(), 60.0, 1e-9);
+}
+
+TEST(BeamClassifier, BeamsWithoutReturnSayNothing) {
+  Random random(3);
+  std::vector<BeamResidual> beams;
+  for (int i = 0; i < 40; ++i) beams.push_back(beam(kSigma * random.normal(), kRange, i % 3 != 0));
+  std::vector<BeamResidual> others = beams;
+  for (std::size_t i = 0; i < others.size(); i += 3) {
+    others[i].residual = random.uniform(-3.0, 3.0);
+    others[i].range = random.uniform(1.0, 30.0);
+  }
+  const Classified one(beams);
+  const Classified other(others);
+  for (std::size_t i = 0; i < beams.size(); ++i) {
+    EXPECT_EQ(one.on_wall(i), other.on_wall(i));
+    if (i % 3 == 0) {
+      EXPECT_EQ(one.on_wall(i), 0.0);
+    }
+  }
+  EXPECT_EQ(one.classifier.log_evidence(), other.classifier.log_evidence());
+  EXPECT_EQ(one.classifier.expected_log_evidence(), other.classifier.expected_log_evidence());
+  EXPECT_DOUBLE_EQ(one.classifier.counts().no_return, 14.0);
+  EXPECT_NEAR(one.classifier.counts().returns(), 26.0, 1e-9);
+}
+
+TEST(BeamClassifier, TheEvidenceOfAScanOfWallsIsAsExpected) {
+  Random random(4);
+  std::vector<BeamResidual> walls;
+  std::vector<BeamResidual> clutter;
+  for (int i = 0; i < 5000; ++i) {
+    const double range = random.uniform(2.0, 20.0);
+    walls.push_back(beam(kSigma * random.normal(), range));
+    clutter.push_back(beam(random.uniform(-range, 0.0), range));
+  }
+  const Classified on_walls(walls);
+  const double expected = on_walls.classifier.expected_log_evidence();
+  EXPECT_GT(expected, 10000.0);
+  EXPECT_NEAR(on_walls.classifier.log_evidence(), expected, 0.05 * expected);
+  EXPECT_LT(Classified(clutter).classifier.log_evidence(), 0.05 * expected);
+}
+
+TEST(BeamClassifier, LongScansKeepTheirEvidence) {
+  // The evidence of so many beams alike is a sum; none may get lost in a product that overflows.
+  const auto evidence = [](std::size_t beams) {
+    return Classified(std::vector<BeamResidual>(beams, beam(0.0, 50.0))).classifier.log_evidence();
+  };
+  const double of_one = (evidence(1000) - evidence(500)) / 500.0;
+  EXPECT_NEAR(evidence(20000) - evidence(1000), 19000.0 * of_one, 1e-6 * evidence(20000));
+  const Classified far(std::vector<BeamResidual>(3000, beam(-1e6)));
+  EXPECT_TRUE(std::isfinite(far.classifier.log_evidence()));
+  EXPECT_LT(far.classifier.log_evidence(), 0.0);
+  EXPECT_LT(far.on_wall(1500), 1e-6);
+}
+
+TEST(BeamClassifier, AScanWithoutBeamsIsNothing) {
+  const Classified none({});
+  EXPECT_TRUE(none.classifier.on_wall().empty());
+  EXPECT_EQ(none.classifier.log_evidence(), 0.0);
+  EXPECT_EQ(none.classifier.counts().returns(), 0.0);
+}
+
+TEST(BeamClassifier, AShorterScanAfterALongOneHasItsOwnLength) {
+  BeamClassifier classifier;
+  const std::vector<BeamResidual> many(50, beam(-2.0));
+  const std::vector<BeamResidual> few(7, beam(0.0));
+  const std::vector<double> variances(50, kSigma * kSigma);
+  classifier.classify(many, variances, {});
+  classifier.classify(few, variances, {});
+  const Classified fresh(few);
+  ASSERT_EQ(classifier.on_wall().size(), few.size());
+  for (std::size_t i = 0; i < few.size(); ++i) {
+    EXPECT_EQ(classifier.on_wall()[i], fresh.on_wall(i));
+  }
+  EXPECT_EQ(classifier.log_evidence(), fresh.classifier.log_evidence());
+}
+
+}  // namespace
+}  // namespace adit

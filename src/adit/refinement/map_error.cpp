@@ -1,0 +1,134 @@
+#include "adit/refinement/map_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adit/information/beam.hpp"
+
+namespace adit {
+namespace {
+
+constexpr double kLeastProbability = 0.5;
+constexpr double kSameDirection = 0.9;  // cosine between the normals of one stretch
+
+// The classifier takes the largest offsets for clutter: a normal distribution that is cut off at
+// 2.5 sigma has lost this part of its variance.
+constexpr double kCutTails = 1.1;
+
+}  // namespace
+
+MapErrorEstimator::MapErrorEstimator(const MapErrorOptions& options) : options_(options) {
+  settle();
+}
+
+void MapErrorEstimator::add(std::span<const BeamResidual> beams, std::span<const double> on_wall,
+                            const ScannerModel& scanner, const Matrix3d& covariance) {
+  cell_ = Cell{};
+  run_length_ = 0;
+  normal_ = Vector2d::Zero();
+  seen_ = 0.0;
+  for (std::size_t k = 0; k < beams.size(); ++k) {
+    if (on_wall[k] < kLeastProbability) continue;
+    const BeamResidual& beam = beams[k];
+    const bool bends = beam.normal.dot(normal_) < kSameDirection;
+    const double along = (beam.hit - cell_begin_).norm();
+    if (bends || along > kCell) {
+      close_cell(covariance);
+      if (bends || along > 2.0 * kCell) run_length_ = 0;
+      cell_begin_ = beam.hit;
+      normal_ = beam.normal;
+    }
+    const double cosine = 1.0 / beam.stretch;
+    const double variance = beam_variance(scanner, beam.range, cosine, 0.0) * cosine * cosine;
+    add_beam(beam, on_wall[k], variance);
+  }
+  close_cell(covariance);
+  forget(seen_);
+  settle();
+}
+
+void MapErrorEstimator::add_beam(const BeamResidual& beam, double probability, double variance) {
+  const double cosine = 1.0 / beam.stretch;
+  const double weight = probability / variance;
+  const double across = beam.residual * cosine;
+  cell_.weight += weight;
+  cell_.residual += weight * across;
+  cell_.squared += weight * across * across;
+  cell_.gradient += weight * cosine * beam.gradient;
+  cell_.beams += 1.0;
+}
+
+void MapErrorEstimator::close_cell(const Matrix3d& covariance) {
+  if (!(cell_.weight > 0.0)) return;
+  cell_.residual /= cell_.weight;
+  cell_.gradient /= cell_.weight;
+  if (cell_.beams > 1.5) {
+    // Scatter about the cell's mean has one degree of freedom less; the noise is worth one a beam.
+    const double scatter = cell_.squared - cell_.weight * cell_.residual * cell_.residual;
+    within_ += (scatter - (cell_.beams - 1.0)) / cell_.weight * cell_.beams;
+    within_count_ += cell_.beams - 1.0;
+  }
+  const auto product = [&](const Cell& other) {
+    return cell_.residual * other.residual + cell_.gradient.dot(covariance * other.gradient);
+  };
+  products_[0] += product(cell_) - 1.0 / cell_.weight;
+  counts_[0] += 1.0;
+  seen_ += 1.0;
+  const std::size_t lags = std::min(run_length_, kLags - 1);
+  for (std::size_t lag = 1; lag <= lags; ++lag) {
+    products_[lag] += product(run_[(run_length_ - lag) % kLags]);
+    counts_[lag] += 1.0;
+  }
+  run_[run_length_ % kLags] = cell_;
+  ++run_length_;
+  cell_ = Cell{};
+}
+
+/// What was seen long ago counts less.
+void MapErrorEstimator::forget(double cells) {
+  const double kept = std::exp(-cells * kCell / options_.memory_metres);
+  for (double& product : products_) product *= kept;
+  for (double& count : counts_) count *= kept;
+  within_ *= kept;
+  within_count_ *= kept;
+}
+
+/// Variance and length of the process whose autocovariance was seen, with what was stated as so
+/// many metres of wall.
+void MapErrorEstimator::settle() {
+  // Neighbouring cells hold the variance that walls share: extrapolated to no distance at all.
+  const double total = std::max(0.0, covariance_at(0));
+  const double shared = std::clamp(2.0 * covariance_at(1) - covariance_at(2), 0.0, total);
+  const double prior = options_.prior_metres / kCell;
+  const double within = std::max(0.0, within_ / (within_count_ + prior));
+  error_.length_m = correlation_length(shared);
+  error_.offset_sigma_m = std::sqrt(kCutTails * shared);
+  error_.roughness_sigma_m = std::sqrt(total - shared + within);
+}
+
+/// Autocovariance of the walls' offsets at so many cells' distance (m²).
+double MapErrorEstimator::covariance_at(std::size_t lag) const {
+  const double prior = options_.prior_metres / kCell;
+  const double metres = kCell * static_cast<double>(lag);
+  const double share =
+      lag == 0 ? 1.0 : (1.0 - options_.roughness_share) * std::exp(-metres / options_.length_m);
+  const double stated = options_.sigma_m * options_.sigma_m * share;
+  return (products_[lag] + prior * stated) / (counts_[lag] + prior);
+}
+
+/// Where the autocovariance first falls to 1/e of its start (m).
+double MapErrorEstimator::correlation_length(double shared) const {
+  const double level = shared / std::exp(1.0);
+  double last = shared;
+  for (std::size_t lag = 1; lag < kLags; ++lag) {
+    const double here = covariance_at(lag);
+    if (here < level) {
+      const double fraction = (last - level) / (last - here);
+      return kCell * (static_cast<double>(lag) - 1.0 + fraction);
+    }
+    last = here;
+  }
+  return kCell * static_cast<double>(kLags);
+}
+
+}  // namespace adit

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+#include "adit/refinement/beam_residuals.hpp"
+#include "adit/scan/scanner_model.hpp"
+
+namespace adit {
+
+/// How the walls differ from the map's lines, across them.
+///
+/// An offset that neighbouring stretches of wall share, a stationary process along the wall whose
+/// correlation falls to 1/e within `length_m` (Ornstein-Uhlenbeck), and a roughness that no two
+/// beams share.
+struct MapError {
+  double offset_sigma_m = 0.0;
+  double length_m = 1.5;
+  double roughness_sigma_m = 0.0;
+
+  /// Of a single point (m).
+  double sigma_m() const {
+    return std::sqrt(offset_sigma_m * offset_sigma_m + roughness_sigma_m * roughness_sigma_m);
+  }
+};
+
+/// What is believed of the map before the first scan, and how fast it is learnt.
+struct MapErrorOptions {
+  double sigma_m = 0.05;
+  double length_m = 1.5;
+  double roughness_share = 0.02;
+  double prior_metres = 20.0;
+  double memory_metres = 3000.0;
+
+  template <class Self, class Field>
+  static void visit(Self& self, Field&& field) {
+    field("sigma_m", self.sigma_m, "how far a wall may lie from its line, one sigma (m)");
+    field("length_m", self.length_m,
+          "way along a wall after which its offset has become another, to 1/e (m)");
+    field("roughness_share", self.roughness_share,
+          "share of the variance that no two beams share, before it is learnt");
+    field(
+        "prior_metres", self.prior_metres,
+        "so many metres of wall must be seen before the residuals count more than what is stated");
+    field("memory_metres", self.memory_metres,
+          "so many metres of wall are remembered: what a few dozen scans see (m)");
+  }
+};
+
+/// Learns the map's error from the residuals of the fits, scan by scan.
+///
+/// Residuals across the wall are averaged over short cells; products of cells of one wall at
+/// growing distance are the autocovariance of the walls' offsets, free of the beams' noise. What
+/// the fit of the pose took out of the residuals is put back by the fit's covariance.
+class MapErrorEstimator {
+ public:
+  explicit MapErrorEstimator(const MapErrorOptions& options = {});
+
+  /// The beams of a fit, each with its probability to have met the wall, and the covariance of the
+  /// fitted pose.
+  void add(std::span<const BeamResidual> beams, std::span<const double> on_wall,
+           const ScannerModel& scanner, const Matrix3d& covariance);
+
+  const MapError& error() const { return error_; }
+
+ private:
+  static constexpr double kCell = 0.25;     // m of wall
+  static constexpr std::size_t kLags = 16;  // cells: four metres
+
+  /// Mean residual across a short piece of wall.
+  struct Cell {
+    double weight = 0.0;    // sum of 1 / variance (1/m²)
+    double residual = 0.0;  // weighted sums ...
+    double squared = 0.0;
+    Vector3d gradient = Vector3d::Zero();
+    double beams = 0.0;
+  };
+  void add_beam(const BeamResidual& beam, double probability, double variance);
+  void close_cell(const Matrix3d& covariance);
+  void forget(double cells);
+  void settle();
+  double covariance_at(std::size_t lag) const;
+  double correlation_length(double shared) const;
+
+  MapErrorOptions options_;
+  MapError error_;
+  Cell cell_;
+  Vector2d cell_begin_ = Vector2d::Zero();
+  Vector2d normal_ = Vector2d::Zero();
+  std::array<Cell, kLags> run_;  // closed cells of this stretch of wall, a ring
+  std::size_t run_length_ = 0;
+  double seen_ = 0.0;  // cells
+  std::array<double, kLags> products_{};
+  std::array<double, kLags> counts_{};
+  double within_ = 0.0;  // scatter within cells beyond the noise, weighted by beams
+  double within_count_ = 0.0;
+};
+
+}  // namespace adit

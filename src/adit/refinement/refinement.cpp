@@ -1,0 +1,242 @@
+#include "adit/refinement/refinement.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "adit/information/beam.hpp"
+#include "adit/refinement/corner_zone.hpp"
+
+namespace adit {
+namespace {
+
+// So many beams tell poses apart that lie a hand's breadth from each other.
+constexpr std::size_t kEnoughBeams = 100;
+
+// Where the doubt about the pose is less than this part of a residual's variance, on average, it no
+// longer sways which beams count; of a step's doubt this part is left for the next.
+constexpr double kNegligibleSpread = 0.2;
+constexpr double kKeptSpread = 0.02;
+
+// The first steps look at so many beams, until they are shorter than so many sigmas.
+constexpr std::size_t kCoarseBeams = 250;
+constexpr double kCoarseLength = 2.0;
+constexpr int kMostCoarse = 3;
+
+// After so many steps they are shortened; at the end one of so many sigmas is still accepted.
+constexpr int kFullSteps = 5;
+constexpr double kAcceptedLength = 2.0;
+
+// Less likely than this to have met the wall: the beam is left out.
+constexpr double kLeastProbability = 0.01;
+
+Vector3d difference(const Pose2& from, const Pose2& to) {
+  return {to.x - from.x, to.y - from.y, angle_between(from.theta, to.theta)};
+}
+
+/// The gradient over the pose and, on the move, over the sweep's twist.
+template <int N>
+Eigen::Matrix<double, N, 1> parameters_gradient(const BeamResidual& beam,
+                                                const RigidTransform& map) {
+  if constexpr (N == 3) {
+    return beam.gradient;
+  } else {
+    const Vector2d& across = beam.gradient.head<2>();
+    Eigen::Matrix<double, 6, 1> gradient;
+    gradient << beam.gradient, beam.tau * across.dot(map.axis_x),
+        beam.tau * across.dot(perpendicular(map.axis_x)), beam.tau * beam.gradient.z();
+    return gradient;
+  }
+}
+
+/// What remains of the information on the first three parameters when the others are free.
+NormalEquations<3> marginal(const NormalEquations<6>& all) {
+  const Matrix3d gain =
+      all.information.topRightCorner<3, 3>() * all.information.bottomRightCorner<3, 3>().inverse();
+  NormalEquations<3> out;
+  out.information =
+      all.information.topLeftCorner<3, 3>() - gain * all.information.bottomLeftCorner<3, 3>();
+  out.score = all.score.head<3>() - gain * all.score.tail<3>();
+  out.chi_square = all.chi_square;
+  return out;
+}
+
+}  // namespace
+
+const ScanFit& Refiner::refine(const RefinementInput& input, const PoseWithCovariance& prior,
+                               const PoseWithCovariance& start, const RefinementOptions& options) {
+  fit_ = ScanFit{};
+  next_ = start.pose;
+  next_correction_ = Twist2{};
+  const SweepPath path = input.motion ? input.motion->path : SweepPath{};
+  Matrix3d spread = start.covariance;
+  last_share_ = std::numeric_limits<double>::infinity();
+  residuals_.set_scan(input.scan, input.scanner);
+  // A few of the beams lead near the pose; all of them find it.
+  std::size_t stride = 1 + input.scan.ranges.size() / kCoarseBeams;
+  while (!fit_.converged && fit_.iterations < options.max_iterations) {
+    ++fit_.iterations;
+    fit_.pose = next_;
+    fit_.correction = next_correction_;
+    residuals_.compute(input.map, fit_.pose, path, fit_.correction, options, stride);
+    weigh(input, spread, options);
+    if (input.motion) {
+      accumulate<6>(input.map_error, input.motion);
+    } else {
+      accumulate<3>(input.map_error, input.motion);
+    }
+    const double length = step(prior, input.motion.has_value(), options, spread);
+    const bool is_coarse = stride > 1;
+    if (is_coarse && (length < kCoarseLength || fit_.iterations >= kMostCoarse)) stride = 1;
+    fit_.converged = !is_coarse && is_last(length, options);
+  }
+  fit_.counts = classifier_.counts();
+  fit_.log_evidence = classifier_.log_evidence();
+  fit_.expected_log_evidence = classifier_.expected_log_evidence();
+  return fit_;
+}
+
+Pose2 Refiner::most_likely(const RefinementInput& input, const PoseWithCovariance& prior,
+                           std::span<const Pose2> poses, const Matrix3d& spread,
+                           const RefinementOptions& options) {
+  const Matrix3d prior_information = prior.covariance.inverse();
+  const SweepPath path = input.motion ? input.motion->path : SweepPath{};
+  residuals_.set_scan(input.scan, input.scanner);
+  Pose2 best = prior.pose;
+  double most = -std::numeric_limits<double>::infinity();
+  const std::size_t stride = 1 + input.scan.ranges.size() / kEnoughBeams;
+  for (const Pose2& pose : poses) {
+    residuals_.compute(input.map, pose, path, Twist2{}, options, stride);
+    weigh(input, spread, options);
+    const Vector3d off = difference(prior.pose, pose);
+    const double likelihood = classifier_.log_evidence() - 0.5 * off.dot(prior_information * off);
+    if (likelihood <= most) continue;
+    most = likelihood;
+    best = pose;
+  }
+  return best;
+}
+
+/// The variance of each residual, and which beams met the wall.
+void Refiner::weigh(const RefinementInput& input, const Matrix3d& spread,
+                    const RefinementOptions& options) {
+  const MapError& map_error = input.map_error;
+  const std::vector<BeamResidual>& beams = residuals_.beams();
+  noise_.resize(beams.size());
+  spread_.resize(beams.size());
+  const double offset = map_error.offset_sigma_m * map_error.offset_sigma_m;
+  double share = 0.0;
+  for (std::size_t k = 0; k < beams.size(); ++k) {
+    const BeamResidual& beam = beams[k];
+    noise_[k] =
+        beam_variance(input.scanner, beam.range, 1.0 / beam.stretch, map_error.roughness_sigma_m);
+    const double known = noise_[k] + beam.stretch * beam.stretch * offset;
+    const double doubt = beam.gradient.dot(spread * beam.gradient);
+    spread_[k] = known + doubt;
+    share += doubt / known;
+    const double rounding = corner_sigma(input.map, beam, map_error, options) * beam.stretch;
+    noise_[k] += rounding * rounding;
+  }
+  spread_share_ = share / std::max<double>(1.0, static_cast<double>(beams.size()));
+  classifier_.classify(beams, spread_, options);
+}
+
+/// The normal equations of all beams on walls, and each wall's part in them.
+template <int N>
+void Refiner::accumulate(const MapError& map_error, const std::optional<SweepPrior>& motion) {
+  const std::vector<BeamResidual>& beams = residuals_.beams();
+  const RigidTransform map_from_vehicle(fit_.pose);
+  NormalEquations<N> shared;
+  NormalEquations<N> white;
+  OffsetWhitener<N> whitener(map_error);
+  shares_.clear();
+  NormalEquations<N> of_wall;
+  int wall = -1;
+  const auto close_wall = [&] {
+    if (wall < 0) return;
+    of_wall.mirror();
+    shared += of_wall;
+    NormalEquations<3> share;
+    share.information = of_wall.information.template topLeftCorner<3, 3>();
+    share.score = of_wall.score.template head<3>();
+    share.chi_square = of_wall.chi_square;
+    add_share(wall, share);
+    of_wall = NormalEquations<N>{};
+  };
+  for (std::size_t k = 0; k < beams.size(); ++k) {
+    const double probability = classifier_.on_wall()[k];
+    if (probability < kLeastProbability) continue;
+    const BeamResidual& beam = beams[k];
+    if (beam.wall != wall) {
+      close_wall();
+      wall = beam.wall;
+    }
+    const auto gradient = parameters_gradient<N>(beam, map_from_vehicle);
+    const double variance = noise_[k] / probability;
+    whitener.move_to(beam.hit, beam.normal);
+    whitener.add(beam.residual, gradient, beam.stretch, variance, of_wall);
+    white.add(gradient, beam.residual, 1.0 / variance);
+  }
+  close_wall();
+  white.mirror();
+  NormalEquations<3> pose_part;
+  if constexpr (N == 3) {
+    pose_part = shared;
+    fit_.white_information = white.information;
+  } else {
+    const Matrix3d confidence = motion->covariance.inverse();
+    shared.information.template bottomRightCorner<3, 3>() += confidence;
+    white.information.template bottomRightCorner<3, 3>() += confidence;
+    shared.score.template tail<3>() += -confidence * fit_.correction.vector();
+    pose_part = marginal(shared);
+    fit_.white_information = marginal(white).information;
+    twist_information_ = shared.information.template bottomRows<3>();
+    twist_score_ = shared.score.template tail<3>();
+  }
+  fit_.information = pose_part.information;
+  fit_.score = pose_part.score;
+  fit_.chi_square = pose_part.chi_square;
+}
+
+void Refiner::add_share(int wall, const NormalEquations<3>& equations) {
+  const auto known = std::find_if(shares_.begin(), shares_.end(),
+                                  [&](const WallShare& share) { return share.wall == wall; });
+  if (known != shares_.end()) {
+    known->equations += equations;
+  } else {
+    shares_.push_back({wall, equations});
+  }
+}
+
+/// A Gauss-Newton step to the pose that scan and prior make most likely; its length in sigmas.
+double Refiner::step(const PoseWithCovariance& prior, bool moving, const RefinementOptions& options,
+                     Matrix3d& spread) {
+  const Matrix3d prior_information = prior.covariance.inverse();
+  const Matrix3d covariance = (fit_.information + prior_information).inverse();
+  Vector3d move = covariance * (fit_.score + prior_information * difference(fit_.pose, prior.pose));
+  const double too_long = std::max(
+      {1.0, move.head<2>().norm() / options.max_step_m, std::abs(move.z()) / options.max_step_rad});
+  move /= too_long;
+  // Beams that change sides at an edge make full steps swing to and fro.
+  if (fit_.iterations > kFullSteps) move *= 0.6;
+  next_ = {fit_.pose.x + move.x(), fit_.pose.y + move.y(), wrap_angle(fit_.pose.theta + move.z())};
+  if (moving) {
+    const Vector3d faster = twist_information_.rightCols<3>().inverse() *
+                            (twist_score_ - twist_information_.leftCols<3>() * move);
+    next_correction_ = Twist2::from_vector(fit_.correction.vector() + faster);
+  }
+  const double length = std::sqrt(move.dot((fit_.information + prior_information) * move));
+  spread = covariance + kKeptSpread * spread;
+  return too_long > 1.0 ? std::numeric_limits<double>::infinity() : length;
+}
+
+/// The beams are judged ever more strictly, but no faster than the steps settle.
+bool Refiner::is_last(double length, const RefinementOptions& options) {
+  const bool settled = spread_share_ < kNegligibleSpread || spread_share_ > 0.5 * last_share_;
+  last_share_ = spread_share_;
+  if (fit_.iterations == options.max_iterations) return length < kAcceptedLength;
+  return length < options.step_tolerance && settled;
+}
+
+}  // namespace adit

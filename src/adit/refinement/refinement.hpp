@@ -1,0 +1,108 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "adit/geometry/pose2.hpp"
+#include "adit/map/line_map.hpp"
+#include "adit/refinement/beam_residuals.hpp"
+#include "adit/refinement/classification.hpp"
+#include "adit/refinement/map_error.hpp"
+#include "adit/refinement/options.hpp"
+#include "adit/refinement/whitening.hpp"
+#include "adit/scan/laser_scan.hpp"
+#include "adit/scan/scanner_model.hpp"
+
+namespace adit {
+
+/// The motion during a sweep as dead reckoning has it.
+struct SweepPrior {
+  SweepPath path;
+  Matrix3d covariance = Matrix3d::Zero();  ///< of its mean (vx, vy, omega)
+};
+
+/// A scan, and what it is compared with.
+struct RefinementInput {
+  const LineMap& map;
+  const LaserScan& scan;
+  const ScannerModel& scanner;
+  const MapError& map_error;
+  std::optional<SweepPrior> motion;  ///< of a scanner that takes its time
+};
+
+/// What one wall of the plan contributed to a fit.
+struct WallShare {
+  int wall = -1;
+  NormalEquations<3> equations;
+};
+
+/// All points of a scan against the map: what they say of the vehicle's pose.
+///
+/// The log likelihood near `pose` is score^T d - d^T information d / 2 for a pose that lies d (x,
+/// y, theta; map frame) away. Directions that the scan does not show have no information.
+struct ScanFit {
+  Pose2 pose;  ///< where the likelihood was looked at: the last step's start
+  Matrix3d information = Matrix3d::Zero();
+  Vector3d score = Vector3d::Zero();
+  /// The information if the offsets of the walls were known: what the noise alone leaves open.
+  Matrix3d white_information = Matrix3d::Zero();
+  Twist2 correction;  ///< of the sweep's motion, on top of dead reckoning's
+  double chi_square = 0.0;
+  BeamCounts counts;
+  double log_evidence = 0.0;
+  double expected_log_evidence = 0.0;  ///< if all returns came from the map's walls
+  int iterations = 0;
+  bool converged = false;
+};
+
+/// The paper's iconic estimator: a maximum-likelihood fit of all points to the map.
+///
+/// Residuals lie along the beams, where the scanner's noise is; each step looks at the map anew
+/// from where it stands (section V of the paper names this as the estimator to come; the bound that
+/// it reaches is Censi's, 2007). Deterministic; allocates nothing once its buffers have grown.
+class Refiner {
+ public:
+  /// Fits from `start`, whose covariance says how far off it may be. `prior` holds what the scan
+  /// leaves open; the fit's information does not contain it.
+  const ScanFit& refine(const RefinementInput& input, const PoseWithCovariance& prior,
+                        const PoseWithCovariance& start, const RefinementOptions& options);
+
+  /// The pose, of those given, at which scan and prior are most likely if it is off by `spread`.
+  /// Looks at a hundred beams or so.
+  Pose2 most_likely(const RefinementInput& input, const PoseWithCovariance& prior,
+                    std::span<const Pose2> poses, const Matrix3d& spread,
+                    const RefinementOptions& options);
+
+  const ScanFit& fit() const { return fit_; }
+  /// The beams of the last step and the probability of each to have met the map's wall.
+  const std::vector<BeamResidual>& beams() const { return residuals_.beams(); }
+  std::span<const double> on_wall() const { return classifier_.on_wall(); }
+  /// The parts of the fit's information, wall by wall.
+  const std::vector<WallShare>& shares() const { return shares_; }
+
+ private:
+  void weigh(const RefinementInput& input, const Matrix3d& spread,
+             const RefinementOptions& options);
+  template <int N>
+  void accumulate(const MapError& map_error, const std::optional<SweepPrior>& motion);
+  double step(const PoseWithCovariance& prior, bool moving, const RefinementOptions& options,
+              Matrix3d& spread);
+  bool is_last(double length, const RefinementOptions& options);
+  void add_share(int wall, const NormalEquations<3>& equations);
+
+  BeamResiduals residuals_;
+  BeamClassifier classifier_;
+  std::vector<double> noise_;   // variance that a beam shares with no other (m²)
+  std::vector<double> spread_;  // variance of a residual, all counted (m²)
+  double last_share_ = 0.0;
+  double spread_share_ = 0.0;  // of the doubt about the pose in that, on average
+  std::vector<WallShare> shares_;
+  Pose2 next_;
+  Twist2 next_correction_;
+  Eigen::Matrix<double, 3, 6> twist_information_;  // the twist's rows of the normal equations
+  Vector3d twist_score_;
+  ScanFit fit_;
+};
+
+}  // namespace adit

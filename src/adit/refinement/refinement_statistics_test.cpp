@@ -1,0 +1,323 @@
+// Whether the fit is as good as physics allows, and its information what its errors are.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "adit/information/beam.hpp"
+#include "adit/information/bound.hpp"
+#include "adit/refinement/refinement.hpp"
+#include "adit/simulation/random.hpp"
+#include "support/casting.hpp"
+
+namespace adit {
+namespace {
+
+using testing::cast_at;
+using testing::kInfinity;
+using testing::map_of;
+
+using Walls = std::vector<Segment>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+constexpr int kBeams = 360;
+const Pose2 kMounting{0.5, -0.3, radians(20.0)};
+const MapError kPerfect{0.0, 1.5, 0.0};
+
+Walls room() {
+  const std::vector<Vector2d> corners{{0, 0},  {9, 1},  {8, 4},  {12, 5}, {11, 9},
+                                      {5, 10}, {4, 13}, {2, 12}, {1, 7},  {-2, 5}};
+  Walls walls;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    walls.push_back({corners[i], corners[(i + 1) % corners.size()]});
+  }
+  return walls;
+}
+
+Pose2 random_pose(Random& random) {
+  return {random.uniform(2.5, 6.5), random.uniform(3.0, 7.5), random.uniform(-kPi, kPi)};
+}
+
+/// The walls as rock has them: their offsets an Ornstein-Uhlenbeck process along each.
+Walls displaced(const Walls& plan, const MapError& error, Random& random) {
+  constexpr double kPiece = 0.1;
+  const double kept = std::exp(-kPiece / error.length_m);
+  Walls rock;
+  for (const Segment& wall : plan) {
+    const auto pieces = static_cast<int>(std::ceil(wall.length() / kPiece));
+    const Vector2d step = (wall.b - wall.a) / pieces;
+    const Vector2d normal = perpendicular(step.normalized());
+    double offset = error.offset_sigma_m * random.normal();
+    for (int i = 0; i < pieces; ++i) {
+      const Vector2d begin = wall.a + i * step + offset * normal;
+      offset =
+          kept * offset + std::sqrt(1.0 - kept * kept) * error.offset_sigma_m * random.normal();
+      rock.push_back({begin, wall.a + (i + 1) * step + offset * normal});
+    }
+  }
+  return rock;
+}
+
+ScannerModel scanner(double sweep_s = 0.0, SweepMoment stamp = SweepMoment::middle) {
+  ScannerModel model;
+  model.range_sigma_m = 0.02;
+  model.quantisation_m = 0.0;
+  model.max_range_m = 50.0;
+  model.sweep_s = sweep_s;
+  model.stamp = stamp;
+  return model;
+}
+
+double bearing_of(int beam) { return -kPi + beam * kTwoPi / kBeams; }
+
+/// The laser at the time of a beam.
+Pose2 laser_at(const Pose2& vehicle, const Twist2& twist, const ScannerModel& model, int beam) {
+  const double tau = sweep_timing(model, kBeams).at(static_cast<std::size_t>(beam));
+  return vehicle * moved(twist, tau) * kMounting;
+}
+
+double cast(const Walls& walls, const Pose2& laser, double bearing) {
+  const Vector2d direction = unit_vector(laser.theta + bearing);
+  double range = kInfinity;
+  for (const Segment& wall : walls) {
+    range = std::min(range, cast_at(wall, laser.translation(), direction));
+  }
+  return range;
+}
+
+LaserScan sweep(const Walls& walls, const Pose2& vehicle, const Twist2& twist,
+                const ScannerModel& model, double noise_m, Random& random) {
+  LaserScan scan;
+  scan.first_bearing = bearing_of(0);
+  scan.bearing_step = kTwoPi / kBeams;
+  scan.max_range = 50.0;
+  scan.vehicle_from_laser = kMounting;
+  for (int i = 0; i < kBeams; ++i) {
+    const double range = cast(walls, laser_at(vehicle, twist, model, i), bearing_of(i));
+    scan.ranges.push_back(std::min(range + noise_m * random.normal(), 50.0));
+  }
+  return scan;
+}
+
+/// A start near the truth; the prior says next to nothing.
+PoseWithCovariance start_near(const Pose2& truth, Random& random) {
+  const Vector3d off(0.03 * random.normal(), 0.03 * random.normal(), 0.005 * random.normal());
+  return {Pose2::from_vector(truth.vector() + off),
+          Vector3d(0.03, 0.03, 0.005).cwiseAbs2().asDiagonal()};
+}
+
+PoseWithCovariance vague(const PoseWithCovariance& start) {
+  return {start.pose, 1e4 * start.covariance};
+}
+
+Vector3d error_of(const ScanFit& fit, const Pose2& truth) {
+  const Vector3d best = fit.pose.vector() + fit.information.ldlt().solve(fit.score);
+  return {best.x() - truth.x, best.y() - truth.y, angle_between(truth.theta, best.z())};
+}
+
+/// Errors of many fits, compared with what they say of themselves and with the bound.
+struct Statistics {
+  double nees = 0.0;           ///< per degree of freedom
+  double over_bound = 0.0;     ///< squared error in units of the bound, per degree of freedom
+  double least_stated = 10.0;  ///< stated information against the bound's, the worst direction
+  double most_stated = 0.0;
+  double rms_m = 0.0;
+  double rms_rad = 0.0;
+  int converged = 0;
+  int count = 0;
+};
+
+void add_bound(const LineMap& map, const Pose2& truth, const ScanFit& fit, Statistics& sum) {
+  BoundWorkspace workspace;
+  BeamFan fan{bearing_of(0), kTwoPi / kBeams, kBeams, kMounting};
+  const PoseBound bound = cramer_rao(map, truth, scanner(), fan, {}, workspace);
+  const Vector3d error = error_of(fit, truth);
+  sum.over_bound += error.dot(bound.information * error) / 3.0;
+  // In units in which the bound is the unit matrix.
+  const Matrix3d root = bound.information.llt().matrixL();
+  const Matrix3d stated = root.inverse() * fit.information * root.inverse().transpose();
+  sum.least_stated = std::min(sum.least_stated, 1.0 / stated.inverse().norm() * std::sqrt(3.0));
+  sum.most_stated = std::max(sum.most_stated, stated.norm() / std::sqrt(3.0));
+}
+
+void finish(Statistics& sum) {
+  sum.nees /= sum.count;
+  sum.over_bound /= sum.count;
+  sum.rms_m = std::sqrt(sum.rms_m / sum.count);
+  sum.rms_rad = std::sqrt(sum.rms_rad / sum.count);
+}
+
+void add_fit(const ScanFit& fit, const Pose2& truth, Statistics& sum) {
+  const Vector3d error = error_of(fit, truth);
+  sum.nees += error.dot(fit.information * error) / 3.0;
+  sum.rms_m += error.head<2>().squaredNorm();
+  sum.rms_rad += error.z() * error.z();
+  sum.converged += fit.converged ? 1 : 0;
+  ++sum.count;
+}
+
+Statistics fit_at_rest(const MapError& error, double noise_m, int scans) {
+  Random random(21);
+  const Walls plan = room();
+  const LineMap map = map_of(plan);
+  const ScannerModel model = scanner();
+  Refiner refiner;
+  Statistics sum;
+  for (int i = 0; i < scans; ++i) {
+    const Walls rock = error.offset_sigma_m > 0.0 ? displaced(plan, error, random) : plan;
+    const Pose2 truth = random_pose(random);
+    const LaserScan scan = sweep(rock, truth, {}, model, noise_m, random);
+    const PoseWithCovariance start = start_near(truth, random);
+    const ScanFit& fit = refiner.refine({map, scan, model, error, {}}, vague(start), start, {});
+    add_fit(fit, truth, sum);
+    add_bound(map, truth, fit, sum);
+  }
+  finish(sum);
+  return sum;
+}
+
+TEST(RefinementStatistics, OnAPerfectMapTheInformationIsTheBound) {
+  const Statistics perfect = fit_at_rest(kPerfect, 0.0, 200);
+  std::printf("stated %g..%g nees %g over %g conv %d\n", perfect.least_stated, perfect.most_stated,
+              perfect.nees, perfect.over_bound, perfect.converged);
+  EXPECT_GT(perfect.least_stated, 0.95);
+  EXPECT_LT(perfect.most_stated, 1.001);
+}
+
+TEST(RefinementStatistics, OnAPerfectMapTheErrorReachesTheBound) {
+  const Statistics noisy = fit_at_rest(kPerfect, 0.02, 500);
+  std::printf("stated %g..%g nees %g over %g conv %d\n", noisy.least_stated, noisy.most_stated,
+              noisy.nees, noisy.over_bound, noisy.converged);
+  EXPECT_LT(noisy.over_bound, 1.15);
+  EXPECT_GT(noisy.nees, 0.8);
+  EXPECT_LT(noisy.nees, 1.15);
+  EXPECT_EQ(noisy.converged, noisy.count);
+}
+
+TEST(RefinementStatistics, OnWallsThatErrTogetherTheCovarianceIsHonest) {
+  const Statistics rough = fit_at_rest({0.05, 1.5, 0.0}, 0.02, 300);
+  std::printf("nees %g over %g rms %g %g conv %d\n", rough.nees, rough.over_bound, rough.rms_m,
+              rough.rms_rad, rough.converged);
+  EXPECT_GT(rough.nees, 0.7);
+  EXPECT_LT(rough.nees, 1.3);
+  // As if each beam erred for itself, the covariance would be far too small.
+  EXPECT_GT(rough.over_bound, 5.0);
+}
+
+const Twist2 kDrive{5.0, 0.0, radians(45.0)};
+const SweepPrior kOdometry{{4.5, 0.1, radians(49.5)},
+                           Vector3d(0.5, 0.1, radians(4.5)).cwiseAbs2().asDiagonal()};
+
+/// Fits of sweeps on the move; `twists` gets what each says of the motion.
+Statistics fit_on_the_move(SweepMoment stamp, int scans, std::vector<Twist2>* twists) {
+  Random random(22);
+  const Walls plan = room();
+  const LineMap map = map_of(plan);
+  const ScannerModel model = scanner(0.2, stamp);
+  Refiner refiner;
+  Statistics sum;
+  for (int i = 0; i < scans; ++i) {
+    const Pose2 truth = random_pose(random);
+    const LaserScan scan = sweep(plan, truth, kDrive, model, 0.02, random);
+    const PoseWithCovariance start = start_near(truth, random);
+    SweepPrior odometry = kOdometry;
+    const Vector3d off(0.5 * random.normal(), 0.1 * random.normal(),
+                       radians(4.5) * random.normal());
+    odometry.twist = Twist2::from_vector(kDrive.vector() + off);
+    const ScanFit& fit =
+        refiner.refine({map, scan, model, kPerfect, odometry}, vague(start), start, {});
+    add_fit(fit, truth, sum);
+    twists->push_back(fit.twist);
+  }
+  finish(sum);
+  return sum;
+}
+
+class Stamps : public ::testing::TestWithParam<SweepMoment> {};
+
+TEST_P(Stamps, AMovingScanTellsPoseAndMotion) {
+  std::vector<Twist2> twists;
+  const Statistics moving = fit_on_the_move(GetParam(), 300, &twists);
+  const Statistics standing = fit_at_rest(kPerfect, 0.02, 300);
+  Vector3d off = Vector3d::Zero();
+  for (const Twist2& twist : twists) {
+    off += (twist.vector() - kDrive.vector()).cwiseAbs2() / static_cast<double>(twists.size());
+  }
+  const Vector3d rms = off.cwiseSqrt();
+  std::printf("nees %g rms %g %g standing %g %g conv %d twist %g %g %g\n", moving.nees,
+              moving.rms_m, moving.rms_rad, standing.rms_m, standing.rms_rad, moving.converged,
+              rms.x(), rms.y(), rms.z());
+  EXPECT_GT(moving.nees, 0.7);
+  EXPECT_LT(moving.nees, 1.3);
+  EXPECT_EQ(moving.converged, moving.count);
+  // Wheels that err by a tenth are corrected by the scan.
+  EXPECT_LT(rms.x(), 0.1);
+  EXPECT_LT(rms.y(), 0.1);
+  EXPECT_LT(rms.z(), radians(2.0));
+}
+
+INSTANTIATE_TEST_SUITE_P(RefinementStatistics, Stamps,
+                         ::testing::Values(SweepMoment::start, SweepMoment::middle,
+                                           SweepMoment::end));
+
+/// Numeric derivative of a beam's range over the vehicle's pose and its twist.
+Vector6d numeric_gradient(const Walls& walls, const Pose2& pose, const ScannerModel& model,
+                          int beam) {
+  constexpr double kStep = 1e-6;
+  Vector6d gradient;
+  for (int axis = 0; axis < 6; ++axis) {
+    const auto range_at = [&](double by) {
+      Vector6d parameters;
+      parameters << pose.vector(), kDrive.vector();
+      parameters[axis] += by;
+      const Pose2 laser = laser_at(Pose2::from_vector(parameters.head<3>()),
+                                   Twist2::from_vector(parameters.tail<3>()), model, beam);
+      return cast(walls, laser, bearing_of(beam));
+    };
+    gradient[axis] = (range_at(kStep) - range_at(-kStep)) / (2.0 * kStep);
+  }
+  return gradient;
+}
+
+TEST(Refiner, TheMotionsColumnsAreTheDerivativeOfTheRanges) {
+  Random random(23);
+  const Walls plan = room();
+  const LineMap map = map_of(plan);
+  const ScannerModel model = scanner(0.2, SweepMoment::middle);
+  RefinementOptions once;
+  once.max_iterations = 1;
+  SweepPrior odometry = kOdometry;
+  odometry.twist = kDrive;
+  double worst = 0.0;
+  for (int trial = 0; trial < 50; ++trial) {
+    const Pose2 truth = random_pose(random);
+    const LaserScan scan = sweep(plan, truth, kDrive, model, 0.0, random);
+    Refiner refiner;
+    const PoseWithCovariance start{truth, start_near(truth, random).covariance};
+    const ScanFit& fit = refiner.refine({map, scan, model, kPerfect, odometry}, start, start, once);
+    ASSERT_EQ(fit.pose.vector(), truth.vector());
+    Matrix6d all = Matrix6d::Zero();
+    all.bottomRightCorner<3, 3>() = odometry.covariance.inverse();
+    for (std::size_t k = 0; k < refiner.beams().size(); ++k) {
+      const BeamResidual& beam = refiner.beams()[k];
+      const double weight =
+          refiner.on_wall()[k] / beam_variance(model, beam.range, 1.0 / beam.stretch, 0.0);
+      const Vector6d gradient = numeric_gradient(plan, truth, model, beam.beam);
+      if (gradient.norm() < 1e4) all += weight * gradient * gradient.transpose();
+    }
+    const Matrix3d expected = all.inverse().topLeftCorner<3, 3>().inverse();
+    const Matrix3d root = expected.llt().matrixL();
+    const Matrix3d ratio = root.inverse() * fit.information * root.inverse().transpose();
+    worst = std::max(worst, (ratio - Matrix3d::Identity()).norm());
+  }
+  std::printf("worst %g\n", worst);
+  EXPECT_LT(worst, 0.1);
+}
+
+}  // namespace
+}  // namespace adit

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+
+#include "adit/geometry/pose2.hpp"
+#include "adit/refinement/map_error.hpp"
+
+namespace adit {
+
+/// Normal equations of a least-squares fit over N parameters.
+template <int N>
+struct NormalEquations {
+  using Matrix = Eigen::Matrix<double, N, N>;
+  using Vector = Eigen::Matrix<double, N, 1>;
+  Matrix information = Matrix::Zero();  ///< lower half while beams are added, then `mirror` it
+  Vector score = Vector::Zero();        ///< gradient^T * inverse variance * residual
+  double chi_square = 0.0;
+
+  void add(const Vector& gradient, double residual, double weight) {
+    for (int i = 0; i < N; ++i) {
+      const double weighted = weight * gradient[i];
+      for (int j = 0; j <= i; ++j) information(i, j) += weighted * gradient[j];
+      score[i] += residual * weighted;
+    }
+    chi_square += weight * residual * residual;
+  }
+  void mirror() {
+    information.template triangularView<Eigen::StrictlyUpper>() = information.transpose();
+  }
+  NormalEquations& operator+=(const NormalEquations& other) {
+    information += other.information;
+    score += other.score;
+    chi_square += other.chi_square;
+    return *this;
+  }
+};
+
+/// Makes the residuals of neighbouring beams independent of each other.
+///
+/// The offset that a wall shares along its length is a Markov process, so one pass of a Kalman
+/// filter along the sweep turns residuals and their gradients into innovations: exactly the
+/// generalised least squares with the full covariance of all beams, in linear time.
+template <int N>
+class OffsetWhitener {
+ public:
+  using Vector = Eigen::Matrix<double, N, 1>;
+
+  explicit OffsetWhitener(const MapError& error)
+      : variance_(error.offset_sigma_m * error.offset_sigma_m),
+        per_metre_(1.0 / std::max(error.length_m, 1e-3)),
+        state_variance_(variance_) {}
+
+  /// The next point that the sweep meets, `normal` towards the scanner: how much of the offset it
+  /// shares with the one before. None across a corner, all of it along a wall or a smooth bend.
+  void move_to(const Vector2d& hit, const Vector2d& normal) {
+    const double metres = (hit - hit_).norm() * per_metre_;
+    const double bend = std::max(0.0, normal.dot(normal_));
+    // 1 / (1 + x + x²/2) for exp(-x): any correlation within [0, 1] makes a proper process.
+    const double correlation = bend / (1.0 + metres * (1.0 + 0.5 * metres));
+    hit_ = hit;
+    normal_ = normal;
+    residual_ *= correlation;
+    gradient_ *= correlation;
+    state_variance_ = variance_ + correlation * correlation * (state_variance_ - variance_);
+  }
+
+  /// What the beam says beyond those before it. `stretch`: change of the range per metre of offset.
+  void add(double residual, const Vector& gradient, double stretch, double variance,
+           NormalEquations<N>& sum) {
+    const double gain = state_variance_ * stretch;
+    const double residual_innovation = residual - stretch * residual_;
+    double weight = 1.0 / (gain * stretch + variance);
+    // A beam that its neighbours gainsay counts less (Huber 1964).
+    const double sigmas = std::abs(residual_innovation) * std::sqrt(weight);
+    if (sigmas > kHuber) {
+      const double inflated = (gain * stretch + variance) * sigmas / kHuber;
+      variance = inflated - gain * stretch;
+      weight = 1.0 / inflated;
+    }
+    const Vector gradient_innovation = gradient - stretch * gradient_;
+    sum.add(gradient_innovation, residual_innovation, weight);
+    const double kalman = gain * weight;
+    residual_ += kalman * residual_innovation;
+    gradient_ += kalman * gradient_innovation;
+    state_variance_ *= variance * weight;
+  }
+
+ private:
+  static constexpr double kHuber = 1.345;  // 95 % efficient where all noise is normal
+
+  double variance_;
+  double per_metre_;
+  double state_variance_;
+  double residual_ = 0.0;             // the offset as the residuals show it ...
+  Vector gradient_ = Vector::Zero();  // ... and what a change of the parameters takes from it
+  Vector2d hit_ = Vector2d::Constant(1e9);
+  Vector2d normal_ = Vector2d::Zero();
+};
+
+}  // namespace adit

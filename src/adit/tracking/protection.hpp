@@ -1,0 +1,46 @@
+#pragma once
+
+#include <span>
+
+#include "adit/geometry/pose2.hpp"
+
+namespace adit {
+
+/// What one wall of the plan says of the pose, as normal equations at the pose of the fit.
+struct WallEvidence {
+  Matrix3d information = Matrix3d::Zero();
+  Vector3d score = Vector3d::Zero();
+};
+
+/// How the protection level is made.
+struct ProtectionOptions {
+  double risk = 1e-3;
+  double margin = 1.15;
+  double loose_prior = 9.0;
+
+  template <class Self, class Field>
+  static void visit(Self& self, Field&& field) {
+    field("risk", self.risk,
+          "probability that the position errs by more than the protection level");
+    field("margin", self.margin,
+          "factor on the radius that a normal distribution of the stated covariance would need");
+    field("loose_prior", self.loose_prior,
+          "where one wall is left out, dead reckoning's variance counts so many times: it may have "
+          "followed that wall before");
+  }
+};
+
+/// Radius (m) that the position's error exceeds with probability `risk`, if it is normal with this
+/// covariance.
+double radius_of(const Matrix3d& covariance, double risk);
+
+/// Protection level (m): a radius that the position's error exceeds with probability `risk` at
+/// most, over the hypotheses that nothing of the plan is wrong, or any one wall of it.
+///
+/// Solution separation (Brown and McBurney 1988, for satellites): without the wall that is wrong
+/// the fit is right, so the error is at most the distance to it plus that fit's own.
+double protection_level(const PoseWithCovariance& estimate, const PoseWithCovariance& prediction,
+                        const Pose2& fitted_at, std::span<const WallEvidence> walls,
+                        const ProtectionOptions& options);
+
+}  // namespace adit

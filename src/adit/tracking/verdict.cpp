@@ -1,0 +1,45 @@
+#include "adit/tracking/verdict.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace adit {
+
+bool explains(const FitQuality& quality, const StatusOptions& options) {
+  const double asked =
+      options.least_evidence_ratio + options.evidence_per_behind * quality.behind_ratio;
+  return quality.converged &&
+         quality.evidence_ratio > std::min(asked, options.most_evidence_ratio) &&
+         quality.wall_ratio > options.least_wall_ratio &&
+         quality.behind_ratio < options.most_behind_ratio;
+}
+
+bool Trust::next(const FitQuality& quality, double way_m, const StatusOptions& options) {
+  if (quality.returns < options.fewest_returns) return false;
+  if (!explains(quality, options)) {
+    contradicted_ = true;
+    regained_m_ = 0.0;
+    return false;
+  }
+  if (!contradicted_) return true;
+  const bool regains = quality.evidence_ratio > options.regain_evidence_ratio;
+  regained_m_ = regains ? regained_m_ + way_m : 0.0;
+  contradicted_ = regained_m_ < options.regain_way_m;
+  return !contradicted_;
+}
+
+std::optional<Vector2d> open_direction(const Matrix3d& fix_covariance,
+                                       const StatusOptions& options) {
+  const double xx = fix_covariance(0, 0);
+  const double yy = fix_covariance(1, 1);
+  const double xy = fix_covariance(0, 1);
+  const double largest = 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
+  if (largest > options.degraded_sigma_m * options.degraded_sigma_m) {
+    return unit_vector(0.5 * std::atan2(2.0 * xy, xx - yy));
+  }
+  const double heading = options.degraded_sigma_rad;
+  if (fix_covariance(2, 2) > heading * heading) return Vector2d(Vector2d::Zero());
+  return std::nullopt;
+}
+
+}  // namespace adit
