@@ -69,8 +69,8 @@ bool BeamResiduals::is_return(std::size_t beam) const {
 }
 
 Pose2 BeamResiduals::laser_at(const Pose2& map_from_vehicle, const SweepPath& path,
-                              const Twist2& correction, double tau) const {
-  return map_from_vehicle * path.at(tau) * moved(correction, tau) * scan_->vehicle_from_laser;
+                              const SweepCorrection& correction, double tau) const {
+  return map_from_vehicle * path.at(tau) * correction.at(tau) * scan_->vehicle_from_laser;
 }
 
 std::size_t BeamResiduals::station_count(const SweepPath& path, double spacing) const {
@@ -91,7 +91,7 @@ std::size_t BeamResiduals::station_count(const SweepPath& path, double spacing) 
 }
 
 void BeamResiduals::compute(const LineMap& map, const Pose2& map_from_vehicle,
-                            const SweepPath& path, const Twist2& correction,
+                            const SweepPath& path, const SweepCorrection& correction,
                             const RefinementOptions& options, std::size_t stride) {
   beams_.clear();
   neighbours_.reset(map, options.neighbour_reach_m);

@@ -39,11 +39,12 @@ class BeamResiduals {
   void set_scan(const LaserScan& scan, const ScannerModel& scanner);
 
   /// Every beam that should meet a wall within range, not flatter than the options allow, in the
-  /// order of the scan. `path` is the motion during the sweep, `correction` a steady motion on top
+  /// order of the scan. `path` is the motion during the sweep, `correction` what is put on top
   /// of it. A vehicle on the move sees the map from several stations of its way.
   /// With a stride only every so many beams.
   void compute(const LineMap& map, const Pose2& map_from_vehicle, const SweepPath& path,
-               const Twist2& correction, const RefinementOptions& options, std::size_t stride = 1);
+               const SweepCorrection& correction, const RefinementOptions& options,
+               std::size_t stride = 1);
 
   const std::vector<BeamResidual>& beams() const { return beams_; }
   /// Beams with a return where the map has nothing in range.
@@ -59,8 +60,8 @@ class BeamResiduals {
     double turn_rate = 0.0;                // rad/s
   };
 
-  Pose2 laser_at(const Pose2& map_from_vehicle, const SweepPath& path, const Twist2& correction,
-                 double tau) const;
+  Pose2 laser_at(const Pose2& map_from_vehicle, const SweepPath& path,
+                 const SweepCorrection& correction, double tau) const;
   std::size_t station_count(const SweepPath& path, double spacing) const;
   void look_from(const LineMap& map, const Station& station, const Vector2d& vehicle,
                  double least_cosine, std::size_t stride);

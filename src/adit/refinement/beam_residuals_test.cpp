@@ -103,6 +103,7 @@ struct Case {
   Pose2 vehicle_from_laser;
   Twist2 twist;
   SweepMoment stamp = SweepMoment::start;
+  Twist2 correction;  ///< what the vehicle does on top of that
 };
 
 void PrintTo(const Case& setting, std::ostream* out) { *out << setting.name; }
@@ -116,7 +117,15 @@ const Case kCases[] = {
     {"clockwise", 271, radians(135.0), radians(-1.0), kMounting, {}},
     {"stamp_at_start", 360, -kPi, radians(1.0), kMounting, kDrive, SweepMoment::start},
     {"stamp_in_the_middle", 360, -kPi, radians(1.0), kMounting, kDrive, SweepMoment::middle},
-    {"stamp_at_end", 271, radians(135.0), radians(-1.0), kMounting, kDrive, SweepMoment::end}};
+    {"stamp_at_end", 271, radians(135.0), radians(-1.0), kMounting, kDrive, SweepMoment::end},
+    {"corrected",
+     360,
+     -kPi,
+     radians(1.0),
+     kMounting,
+     kDrive,
+     SweepMoment::middle,
+     {0.5, -0.2, radians(-4.0)}}};
 
 bool moves(const Case& setting) { return setting.twist.velocity().norm() > 0.0; }
 
@@ -133,7 +142,8 @@ ScannerModel scanner_of(const Case& setting) {
 Hit cast_beam(const LineMap& map, const Pose2& vehicle, const Case& setting, std::size_t beam) {
   const auto beams = static_cast<std::size_t>(setting.beams);
   const double tau = sweep_timing(scanner_of(setting), beams).at(beam);
-  const Pose2 laser = vehicle * moved(setting.twist, tau) * setting.vehicle_from_laser;
+  const Pose2 laser = vehicle * moved(setting.twist, tau) * moved(setting.correction, tau) *
+                      setting.vehicle_from_laser;
   return cast(map, laser, setting.first_bearing + static_cast<double>(beam) * setting.bearing_step);
 }
 
@@ -148,6 +158,11 @@ LaserScan perfect_scan(const LineMap& map, const Pose2& vehicle, const Case& set
     scan.ranges.push_back(std::min(hit.range, scan.max_range));
   }
   return scan;
+}
+
+SweepPath path_of(const Case& setting) {
+  const auto beams = static_cast<std::size_t>(setting.beams);
+  return steady_path(setting.twist, sweep_timing(scanner_of(setting), beams), beams);
 }
 
 class OfScans : public ::testing::TestWithParam<Case> {};
@@ -169,14 +184,14 @@ TEST_P(OfScans, APerfectScanHasNoResiduals) {
       const Pose2 pose = random_pose(map, random);
       const LaserScan scan = perfect_scan(map, pose, setting);
       residuals.set_scan(scan, scanner_of(setting));
-      residuals.compute(map, pose, setting.twist, {});
+      residuals.compute(map, pose, path_of(setting), setting.correction, {});
       ASSERT_GT(residuals.beams().size(), 0.95 * setting.beams);
       if (moves(setting)) {
         // From a station's middle the edges lie a little aside; the rest is the curve of the way.
         EXPECT_LT(share_off(residuals.beams(), 1e-3), 0.05);
         RefinementOptions fine;
         fine.station_spacing_m = 0.02;
-        residuals.compute(map, pose, setting.twist, fine);
+        residuals.compute(map, pose, path_of(setting), setting.correction, fine);
         EXPECT_LT(share_off(residuals.beams(), 5e-5), 0.02);
       } else {
         EXPECT_EQ(share_off(residuals.beams(), 1e-9), 0.0);
@@ -194,7 +209,7 @@ TEST(MovingScan, ShowsMotionThatIsNotKnown) {
     const LaserScan scan = perfect_scan(map, pose, setting);
     BeamResiduals residuals;
     residuals.set_scan(scan, scanner_of(setting));
-    residuals.compute(map, pose, {}, {});
+    residuals.compute(map, pose, {}, {}, {});
     EXPECT_GT(share_off(residuals.beams(), 0.02), 0.5) << setting.name;
   }
 }
@@ -229,7 +244,7 @@ TEST_P(OfScans, TheGradientIsTheDerivativeOfTheRange) {
       const Pose2 pose = random_pose(map, random);
       const LaserScan scan = perfect_scan(map, pose, setting);
       residuals.set_scan(scan, scanner_of(setting));
-      residuals.compute(map, pose, setting.twist, options);
+      residuals.compute(map, pose, path_of(setting), setting.correction, options);
       for (const BeamResidual& beam : residuals.beams()) {
         const auto numeric = numeric_gradient(map, pose, setting, beam);
         if (!numeric) continue;
@@ -255,14 +270,15 @@ TEST_P(OfScans, EachBeamSaysWhatItMeets) {
   const SweepTiming timing = sweep_timing(scanner_of(setting), beams);
   BeamResiduals residuals;
   residuals.set_scan(scan, scanner_of(setting));
-  residuals.compute(map, pose, setting.twist, {});
+  residuals.compute(map, pose, path_of(setting), setting.correction, {});
   int last = -1;
   for (const BeamResidual& beam : residuals.beams()) {
     ASSERT_GT(beam.beam, last);
     last = beam.beam;
     EXPECT_TRUE(beam.has_return);
     EXPECT_DOUBLE_EQ(beam.tau, timing.at(static_cast<std::size_t>(beam.beam)));
-    const Pose2 vehicle = pose * moved(setting.twist, beam.tau);
+    const Pose2 vehicle =
+        pose * moved(setting.twist, beam.tau) * moved(setting.correction, beam.tau);
     const Vector2d origin = (vehicle * setting.vehicle_from_laser).translation();
     const Segment& wall = map.walls()[static_cast<std::size_t>(beam.wall)].segment;
     const Vector2d along = (wall.b - wall.a).normalized();
@@ -284,7 +300,7 @@ TEST(BeamStride, TakesEverySoManyBeams) {
   const LaserScan scan = perfect_scan(map, pose, kCases[0]);
   BeamResiduals residuals;
   residuals.set_scan(scan, scanner_of(kCases[0]));
-  residuals.compute(map, pose, {}, {}, 7);
+  residuals.compute(map, pose, {}, {}, {}, 7);
   EXPECT_GT(residuals.beams().size(), 45u);
   for (const BeamResidual& beam : residuals.beams()) {
     EXPECT_EQ(beam.beam % 7, 0);

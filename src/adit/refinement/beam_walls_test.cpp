@@ -40,7 +40,7 @@ std::vector<BeamResidual> beams_of(const LaserScan& scan, const LineMap& map,
                                    const RefinementOptions& options = {}) {
   BeamResiduals residuals;
   residuals.set_scan(scan, fine_scanner());
-  residuals.compute(map, {}, {}, options);
+  residuals.compute(map, {}, {}, {}, options);
   return residuals.beams();
 }
 
@@ -66,10 +66,10 @@ TEST(BeamResiduals, ReturnsWhereTheMapHasNothingAreCounted) {
   scan.ranges[18] = 20.0;  // the beam that looks back
   BeamResiduals residuals;
   residuals.set_scan(scan, fine_scanner());
-  residuals.compute(map, {}, {}, {});
+  residuals.compute(map, {}, {}, {}, {});
   EXPECT_EQ(residuals.beams().size(), 11u);  // up to 50 degrees on either side
   EXPECT_EQ(residuals.unmapped(), 24);
-  residuals.compute(map, {}, {}, {});
+  residuals.compute(map, {}, {}, {}, {});
   EXPECT_EQ(residuals.unmapped(), 24);
 }
 
@@ -123,10 +123,10 @@ TEST(BeamResiduals, AnotherFanOfAsManyBeamsIsAnotherFan) {
   BeamResiduals residuals;
   LaserScan scan = star(5.0);
   residuals.set_scan(scan, fine_scanner());
-  residuals.compute(map, {}, {}, {});
+  residuals.compute(map, {}, {}, {}, {});
   scan.first_bearing = radians(-5.0);
   residuals.set_scan(scan, fine_scanner());
-  residuals.compute(map, {}, {}, {});
+  residuals.compute(map, {}, {}, {}, {});
   EXPECT_NEAR(residuals.beams().front().range, 5.0 / std::cos(radians(5.0)), 1e-9);
 }
 

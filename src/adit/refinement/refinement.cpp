@@ -35,31 +35,46 @@ Vector3d difference(const Pose2& from, const Pose2& to) {
   return {to.x - from.x, to.y - from.y, angle_between(from.theta, to.theta)};
 }
 
-/// The gradient over the pose and, on the move, over the sweep's twist.
+/// The gradient over the pose and, on the move, over the correction of the sweep's motion.
 template <int N>
-Eigen::Matrix<double, N, 1> parameters_gradient(const BeamResidual& beam,
-                                                const RigidTransform& map) {
+Eigen::Matrix<double, N, 1> parameters_gradient(const BeamResidual& beam, const RigidTransform& map,
+                                                const SweepCorrection& correction) {
   if constexpr (N == 3) {
     return beam.gradient;
   } else {
-    const Vector2d& across = beam.gradient.head<2>();
-    Eigen::Matrix<double, 6, 1> gradient;
-    gradient << beam.gradient, beam.tau * across.dot(map.axis_x),
-        beam.tau * across.dot(perpendicular(map.axis_x)), beam.tau * beam.gradient.z();
+    const Vector2d across = beam.gradient.head<2>();
+    const Vector3d in_vehicle(across.dot(map.axis_x), across.dot(perpendicular(map.axis_x)),
+                              beam.gradient.z());
+    const std::array<double, 2> share = correction.shares(beam.tau);
+    Eigen::Matrix<double, 9, 1> gradient;
+    gradient << beam.gradient, share[0] * in_vehicle, share[1] * in_vehicle;
     return gradient;
   }
 }
 
 /// What remains of the information on the first three parameters when the others are free.
-NormalEquations<3> marginal(const NormalEquations<6>& all) {
-  const Matrix3d gain =
-      all.information.topRightCorner<3, 3>() * all.information.bottomRightCorner<3, 3>().inverse();
+NormalEquations<3> marginal(const NormalEquations<9>& all) {
+  const Eigen::Matrix<double, 3, 6> gain =
+      all.information.topRightCorner<3, 6>() * all.information.bottomRightCorner<6, 6>().inverse();
   NormalEquations<3> out;
   out.information =
-      all.information.topLeftCorner<3, 3>() - gain * all.information.bottomLeftCorner<3, 3>();
-  out.score = all.score.head<3>() - gain * all.score.tail<3>();
+      all.information.topLeftCorner<3, 3>() - gain * all.information.bottomLeftCorner<6, 3>();
+  out.score = all.score.head<3>() - gain * all.score.tail<6>();
   out.chi_square = all.chi_square;
   return out;
+}
+
+/// Dead reckoning's word on the correction. As a random walk it errs in each half by half of the
+/// whole sweep's variance, so twice the variance holds of a half's mean motion.
+void add_motion_prior(const SweepPrior& motion, const SweepCorrection& correction,
+                      NormalEquations<9>& sum) {
+  const Matrix3d confidence = (2.0 * motion.covariance).inverse();
+  for (int half = 0; half < 2; ++half) {
+    const int first = 3 + 3 * half;
+    sum.information.block<3, 3>(first, first) += confidence;
+    sum.score.segment<3>(first) -=
+        confidence * correction.halves[static_cast<std::size_t>(half)].vector();
+  }
 }
 
 }  // namespace
@@ -68,9 +83,10 @@ const ScanFit& Refiner::refine(const RefinementInput& input, const PoseWithCovar
                                const PoseWithCovariance& start, const RefinementOptions& options) {
   fit_ = ScanFit{};
   next_ = start.pose;
-  next_correction_ = Twist2{};
+  next_correction_ = SweepCorrection{};
   const SweepPath path = input.motion ? input.motion->path : SweepPath{};
   Matrix3d spread = start.covariance;
+  next_correction_.middle_s = path.begin_s + 0.5 * path.span_s;
   last_share_ = std::numeric_limits<double>::infinity();
   residuals_.set_scan(input.scan, input.scanner);
   // A few of the beams lead near the pose; all of them find it.
@@ -82,7 +98,7 @@ const ScanFit& Refiner::refine(const RefinementInput& input, const PoseWithCovar
     residuals_.compute(input.map, fit_.pose, path, fit_.correction, options, stride);
     weigh(input, spread, options);
     if (input.motion) {
-      accumulate<6>(input.map_error, input.motion);
+      accumulate<9>(input.map_error, input.motion);
     } else {
       accumulate<3>(input.map_error, input.motion);
     }
@@ -107,7 +123,7 @@ Pose2 Refiner::most_likely(const RefinementInput& input, const PoseWithCovarianc
   double most = -std::numeric_limits<double>::infinity();
   const std::size_t stride = 1 + input.scan.ranges.size() / kEnoughBeams;
   for (const Pose2& pose : poses) {
-    residuals_.compute(input.map, pose, path, Twist2{}, options, stride);
+    residuals_.compute(input.map, pose, path, SweepCorrection{}, options, stride);
     weigh(input, spread, options);
     const Vector3d off = difference(prior.pose, pose);
     const double likelihood = classifier_.log_evidence() - 0.5 * off.dot(prior_information * off);
@@ -172,7 +188,7 @@ void Refiner::accumulate(const MapError& map_error, const std::optional<SweepPri
       close_wall();
       wall = beam.wall;
     }
-    const auto gradient = parameters_gradient<N>(beam, map_from_vehicle);
+    const auto gradient = parameters_gradient<N>(beam, map_from_vehicle, fit_.correction);
     const double variance = noise_[k] / probability;
     whitener.move_to(beam.hit, beam.normal);
     whitener.add(beam.residual, gradient, beam.stretch, variance, of_wall);
@@ -185,14 +201,12 @@ void Refiner::accumulate(const MapError& map_error, const std::optional<SweepPri
     pose_part = shared;
     fit_.white_information = white.information;
   } else {
-    const Matrix3d confidence = motion->covariance.inverse();
-    shared.information.template bottomRightCorner<3, 3>() += confidence;
-    white.information.template bottomRightCorner<3, 3>() += confidence;
-    shared.score.template tail<3>() += -confidence * fit_.correction.vector();
+    add_motion_prior(*motion, fit_.correction, shared);
+    add_motion_prior(*motion, fit_.correction, white);
     pose_part = marginal(shared);
     fit_.white_information = marginal(white).information;
-    twist_information_ = shared.information.template bottomRows<3>();
-    twist_score_ = shared.score.template tail<3>();
+    correction_information_ = shared.information.template bottomRows<6>();
+    correction_score_ = shared.score.template tail<6>();
   }
   fit_.information = pose_part.information;
   fit_.score = pose_part.score;
@@ -222,9 +236,14 @@ double Refiner::step(const PoseWithCovariance& prior, bool moving, const Refinem
   if (fit_.iterations > kFullSteps) move *= 0.6;
   next_ = {fit_.pose.x + move.x(), fit_.pose.y + move.y(), wrap_angle(fit_.pose.theta + move.z())};
   if (moving) {
-    const Vector3d faster = twist_information_.rightCols<3>().inverse() *
-                            (twist_score_ - twist_information_.leftCols<3>() * move);
-    next_correction_ = Twist2::from_vector(fit_.correction.vector() + faster);
+    const Eigen::Matrix<double, 6, 1> more =
+        correction_information_.rightCols<6>().inverse() *
+        (correction_score_ - correction_information_.leftCols<3>() * move);
+    next_correction_ = fit_.correction;
+    for (int half = 0; half < 2; ++half) {
+      Twist2& twist = next_correction_.halves[static_cast<std::size_t>(half)];
+      twist = Twist2::from_vector(twist.vector() + more.segment<3>(3 * half));
+    }
   }
   const double length = std::sqrt(move.dot((fit_.information + prior_information) * move));
   spread = covariance + kKeptSpread * spread;

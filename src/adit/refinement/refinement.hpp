@@ -47,7 +47,7 @@ struct ScanFit {
   Vector3d score = Vector3d::Zero();
   /// The information if the offsets of the walls were known: what the noise alone leaves open.
   Matrix3d white_information = Matrix3d::Zero();
-  Twist2 correction;  ///< of the sweep's motion, on top of dead reckoning's
+  SweepCorrection correction;  ///< of the sweep's motion, on top of dead reckoning's
   double chi_square = 0.0;
   BeamCounts counts;
   double log_evidence = 0.0;
@@ -99,9 +99,10 @@ class Refiner {
   double spread_share_ = 0.0;  // of the doubt about the pose in that, on average
   std::vector<WallShare> shares_;
   Pose2 next_;
-  Twist2 next_correction_;
-  Eigen::Matrix<double, 3, 6> twist_information_;  // the twist's rows of the normal equations
-  Vector3d twist_score_;
+  SweepCorrection next_correction_;
+  // The correction's rows of the normal equations.
+  Eigen::Matrix<double, 6, 9> correction_information_;
+  Eigen::Matrix<double, 6, 1> correction_score_;
   ScanFit fit_;
 };
 

@@ -44,4 +44,26 @@ inline SweepPath steady_path(const Twist2& twist, const SweepTiming& timing, std
   return path;
 }
 
+/// What dead reckoning missed of a sweep's motion: two steady motions on top of it, one for each
+/// half of the sweep (odometry errs like a random walk, which one steady motion cannot follow).
+struct SweepCorrection {
+  static constexpr std::size_t kHalves = 2;
+
+  std::array<Twist2, kHalves> halves{};
+  double middle_s = 0.0;  ///< of the sweep, from the stamp
+
+  /// How much of the time from the stamp to `seconds` lies in each half (s, signed).
+  std::array<double, kHalves> shares(double seconds) const {
+    const double low = std::min(seconds, 0.0);
+    const double high = std::max(seconds, 0.0);
+    const double sign = seconds < 0.0 ? -1.0 : 1.0;
+    return {sign * std::max(0.0, std::min(high, middle_s) - low),
+            sign * std::max(0.0, high - std::max(low, middle_s))};
+  }
+  Pose2 at(double seconds) const {
+    const std::array<double, kHalves> share = shares(seconds);
+    return moved(halves[0], share[0]) * moved(halves[1], share[1]);
+  }
+};
+
 }  // namespace adit
