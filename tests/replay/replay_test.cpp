@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
 
 #include "adit/io/carmen.hpp"
 #include "adit/simulation/vehicle.hpp"

@@ -24,12 +24,26 @@ void Localizer::find_by_features() {
 
 const Estimate& Localizer::update(const LaserScan& scan, const Pose2& odom_from_vehicle) {
   const bool usable = odom_from_vehicle.is_finite() && scan.vehicle_from_laser.is_finite();
-  return usable ? turn(scan, odom_from_vehicle) : skip(scan.stamp);
+  if (!usable) return skip(scan.stamp);
+  return is_repeated(scan, odom_from_vehicle) ? estimate_ : turn(scan, odom_from_vehicle);
 }
 
 const Estimate& Localizer::update(const LaserScan& scan) {
   const std::optional<Pose2> odometry = odometry_.at(scan.stamp, settings_.localizer.max_age_s);
-  return scan.vehicle_from_laser.is_finite() ? turn(scan, odometry) : skip(scan.stamp);
+  if (!scan.vehicle_from_laser.is_finite()) return skip(scan.stamp);
+  return is_repeated(scan, odometry) ? estimate_ : turn(scan, odometry);
+}
+
+/// Notes how the stamp follows the last. A scan that came twice says nothing new.
+bool Localizer::is_repeated(const LaserScan& scan, const std::optional<Pose2>& odom_from_vehicle) {
+  const StampOrder order = stamps_.next(scan.stamp, scan.scanner, settings_.stamps);
+  if (order == StampOrder::jump) {  // what was fed before has stamps of another clock
+    odometry_.clear();
+    gyro_.clear();
+  }
+  if (order != StampOrder::duplicate || odom_from_vehicle.has_value() != last_odometry_.has_value())
+    return false;
+  return !odom_from_vehicle || odom_from_vehicle->vector() == last_odometry_->vector();
 }
 
 /// Answers a scan that cannot be used from what is believed already.
@@ -57,6 +71,7 @@ void Localizer::start(const Pose2& map_from_vehicle, const std::optional<Matrix3
   last_odometry_.reset();
   last_gyro_.reset();
   trust_.reset();
+  clear_ = true;
   rival_.reset();
 }
 

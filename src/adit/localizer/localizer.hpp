@@ -67,6 +67,7 @@ class Localizer {
   // The page: localizer.cpp.
   const Estimate& turn(const LaserScan& scan, const std::optional<Pose2>& odom_from_vehicle);
   const Estimate& skip(double stamp);
+  bool is_repeated(const LaserScan& scan, const std::optional<Pose2>& odom_from_vehicle);
   void find_by_features();
 
   // The stages: stages.cpp, and all_points.cpp for `refine_pose`.
@@ -117,6 +118,7 @@ class Localizer {
   std::optional<double> last_gyro_;
   Pose2 vehicle_from_laser_;
   Trust trust_;
+  bool clear_ = true;   // the map explained nearly all of it
   double way_m_ = 0.0;  // since the last scan, by dead reckoning
   std::optional<Rival> rival_;
 

@@ -35,6 +35,7 @@ struct LocalizerOptions {
   double prior_floor_rad = 0.004;
   double prior_inflation = 9.0;
   bool features_every_scan = false;
+  double clear_evidence_ratio = 0.85;
   double features_sigma_m = 0.25;
   double features_sigma_rad = 0.06;
 
@@ -64,6 +65,8 @@ struct LocalizerOptions {
           "slipping wheels do not hold the fit back");
     field("features_every_scan", self.features_every_scan,
           "match features at every scan, not only where the prediction is unsure");
+    field("clear_evidence_ratio", self.clear_evidence_ratio,
+          "features are matched as well where the map explained less than this of the last scan");
     field("features_sigma_m", self.features_sigma_m,
           "a prediction less sure than this needs features to find the pose (m)");
     field("features_sigma_rad", self.features_sigma_rad, "the same for the heading (rad)");

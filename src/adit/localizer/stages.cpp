@@ -14,7 +14,6 @@ namespace adit {
 void Localizer::predict_pose(double stamp, const std::optional<Pose2>& odom_from_vehicle) {
   const LocalizerOptions& options = settings_.localizer;
   way_m_ = 0.0;
-  stamps_.next(stamp, settings_.stamps);
   const std::optional<Pose2> gyro = gyro_.at(stamp, options.max_age_s);
   const bool has_turn = gyro && last_gyro_;
   if (last_odometry_) {
@@ -70,7 +69,7 @@ bool Localizer::wants_features() const {
   const Matrix3d& covariance = predicted_.covariance;
   const double metres = options.features_sigma_m;
   const double radians = options.features_sigma_rad;
-  return options.features_every_scan || trust_.contradicted() ||
+  return options.features_every_scan || !clear_ || trust_.contradicted() ||
          covariance.topLeftCorner<2, 2>().trace() > metres * metres ||
          covariance(2, 2) > radians * radians;
 }
@@ -174,16 +173,17 @@ void Localizer::track_pose() {
     if (believed_) tracker_.start(vehicle_by_features());
     return;
   }
-  const FitQuality quality = quality_of(scan_fit_);
-  believed_ = trust_.next(quality, way_m_, settings_.status);
   const PoseObservation fix{scan_fit_.pose, scan_fit_.score, scan_fit_.information,
                             scan_fit_.white_information};
   const double gate = settings_.tracking.gate_chi_square;
-  const bool explained = explains(quality, settings_.status);
-  const bool agrees = quality.converged &&
-                      quality.evidence_ratio > settings_.status.used_evidence_ratio &&
-                      tracker_.chi_square(fix) < gate;
-  if (!explained && !agrees) return;
+  FitQuality quality = quality_of(scan_fit_);
+  quality.agrees = tracker_.chi_square(fix) < gate;
+  believed_ = trust_.next(quality, way_m_, settings_.status);
+  clear_ = quality.evidence_ratio > settings_.localizer.clear_evidence_ratio;
+  const bool helps = quality.converged && quality.agrees &&
+                     quality.evidence_ratio > settings_.status.used_evidence_ratio;
+  quality.agrees = true;  // what is not trusted for its disagreement may still be the truth
+  if (!helps && !explains(quality, settings_.status)) return;
   const PoseWithCovariance before = tracker_.estimate();
   const double chi_square = tracker_.update(fix, settings_.tracking);
   if (chi_square > gate && !rival_) rival_ = Rival{before, 0.0, 0.0};

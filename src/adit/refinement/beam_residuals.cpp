@@ -44,8 +44,8 @@ void BeamResiduals::set_scan(const LaserScan& scan, const ScannerModel& scanner)
   ranges_.resize(count);
   walls_.resize(count);
   beams_.reserve(count);
-  if (directions_.size() == count && first_bearing_ == scan.first_bearing &&
-      bearing_step_ == scan.bearing_step) {
+  if (scan.bearings.empty() && directions_.size() == count &&
+      first_bearing_ == scan.first_bearing && bearing_step_ == scan.bearing_step) {
     return;
   }
   first_bearing_ = scan.first_bearing;

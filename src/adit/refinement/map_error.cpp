@@ -13,7 +13,7 @@ constexpr double kSameDirection = 0.9;  // cosine between the normals of one str
 
 // The classifier takes the largest offsets for clutter: a normal distribution that is cut off at
 // 2.5 sigma has lost this part of its variance.
-constexpr double kCutTails = 1.1;
+constexpr double kCutTails = 1.2;
 
 }  // namespace
 

@@ -28,10 +28,10 @@ struct MapError {
 
 /// What is believed of the map before the first scan, and how fast it is learnt.
 struct MapErrorOptions {
-  double sigma_m = 0.05;
+  double sigma_m = 0.15;
   double length_m = 1.5;
   double roughness_share = 0.02;
-  double prior_metres = 20.0;
+  double prior_metres = 60.0;
   double memory_metres = 3000.0;
 
   template <class Self, class Field>

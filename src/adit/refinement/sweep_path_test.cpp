@@ -46,5 +46,30 @@ TEST(SweepPath, OfAScannerThatTakesAllAtOnceHasNoLength) {
   expect_near(steady_path(kDrive, sweep_timing(ScannerModel{}, 500), 500).at(0.3), {}, 0.0);
 }
 
+TEST(SweepCorrection, OfOneMotionInBothHalvesIsThatMotion) {
+  for (const double middle : {-0.1, 0.0, 0.1}) {
+    SweepCorrection correction;
+    correction.halves = {kDrive, kDrive};
+    correction.middle_s = middle;
+    for (const double seconds : {-0.2, -0.1, -0.03, 0.0, 0.05, 0.1, 0.2}) {
+      expect_near(correction.at(seconds), moved(kDrive, seconds), 1e-12);
+    }
+  }
+}
+
+TEST(SweepCorrection, EachHalfActsInItsOwnTime) {
+  SweepCorrection correction;
+  correction.halves = {kDrive, Twist2{}};
+  correction.middle_s = 0.1;  // the stamp is the begin
+  expect_near(correction.at(0.06), moved(kDrive, 0.06), 1e-12);
+  expect_near(correction.at(0.15), moved(kDrive, 0.1), 1e-12);
+  correction.middle_s = -0.1;  // the stamp is the end
+  expect_near(correction.at(-0.08), {}, 1e-12);
+  expect_near(correction.at(-0.18), moved(kDrive, -0.08), 1e-12);
+  correction.middle_s = 0.0;
+  expect_near(correction.at(-0.07), moved(kDrive, -0.07), 1e-12);
+  expect_near(correction.at(0.07), {}, 1e-12);
+}
+
 }  // namespace
 }  // namespace adit

@@ -48,7 +48,10 @@ void PoseTracker::blur(double metres, double radians) {
 }
 
 void PoseTracker::start(const PoseWithCovariance& map_from_vehicle) {
+  // Nobody knows a pose better than this; a covariance without any of it has no inverse.
+  constexpr double kLeastVariance = 1e-12;
   estimate_ = map_from_vehicle;
+  estimate_.covariance.diagonal().array() += kLeastVariance;
   bias_.setZero();
 }
 

@@ -4,23 +4,26 @@
 
 namespace adit {
 
-StampOrder StampWatch::next(double stamp, const StampOptions& options) {
+StampOrder StampWatch::next(double stamp, int scanner, const StampOptions& options) {
+  const bool same_scanner = scanner == last_scanner_;
+  last_scanner_ = scanner;
   const double step = last_ ? stamp - *last_ : 0.0;
   const bool is_first = !last_;
   last_ = stamp;
   step_s_ = 0.0;
   if (is_first) return StampOrder::first;
-  const StampOrder order = classify(step, options);
+  const StampOrder order = classify(step, same_scanner, options);
   if (order != StampOrder::jump) step_s_ = step;
   return order;
 }
 
-StampOrder StampWatch::classify(double step, const StampOptions& options) {
+StampOrder StampWatch::classify(double step, bool same_scanner, const StampOptions& options) {
   if (!(std::abs(step) <= options.jump_s)) {
     ++counts_.jumps;
     return StampOrder::jump;
   }
   if (step == 0.0) {
+    if (!same_scanner) return StampOrder::in_order;
     ++counts_.duplicates;
     return StampOrder::duplicate;
   }

@@ -8,7 +8,7 @@ namespace adit {
 enum class StampOrder {
   first,      ///< nothing came before
   in_order,   ///< a little later
-  duplicate,  ///< the same stamp
+  duplicate,  ///< the same stamp, of the same scanner
   late,       ///< earlier: scans arrived out of order
   gap,        ///< later, but scans are missing in between
   jump,       ///< far away: a clock was set
@@ -16,7 +16,7 @@ enum class StampOrder {
 
 /// When a step between stamps is a gap, and when a clock has jumped.
 struct StampOptions {
-  double gap_s = 2.0;
+  double gap_s = 5.0;
   double jump_s = 60.0;
 
   template <class Self, class Field>
@@ -38,7 +38,7 @@ struct StampCounts {
 /// Watches the stamps of scans as they come.
 class StampWatch {
  public:
-  StampOrder next(double stamp, const StampOptions& options);
+  StampOrder next(double stamp, int scanner, const StampOptions& options);
   void reset() { *this = StampWatch{}; }
 
   /// Seconds from the scan before the last to the last; 0 for the first and after a jump.
@@ -46,9 +46,10 @@ class StampWatch {
   const StampCounts& counts() const { return counts_; }
 
  private:
-  StampOrder classify(double step, const StampOptions& options);
+  StampOrder classify(double step, bool same_scanner, const StampOptions& options);
 
   std::optional<double> last_;
+  int last_scanner_ = 0;
   double step_s_ = 0.0;
   StampCounts counts_;
 };

@@ -6,10 +6,11 @@
 namespace adit {
 
 bool explains(const FitQuality& quality, const StatusOptions& options) {
-  const double asked =
-      options.least_evidence_ratio + options.evidence_per_behind * quality.behind_ratio;
-  return quality.converged &&
-         quality.evidence_ratio > std::min(asked, options.most_evidence_ratio) &&
+  const double usual =
+      std::min(options.least_evidence_ratio + options.evidence_per_behind * quality.behind_ratio,
+               options.most_evidence_ratio);
+  const double asked = quality.agrees ? usual : options.regain_evidence_ratio;
+  return quality.converged && quality.evidence_ratio > asked &&
          quality.wall_ratio > options.least_wall_ratio &&
          quality.behind_ratio < options.most_behind_ratio;
 }

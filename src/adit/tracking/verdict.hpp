@@ -37,7 +37,8 @@ struct StatusOptions {
           "a lost scan of which so much is explained still corrects dead reckoning, if the two "
           "agree");
     field("regain_evidence_ratio", self.regain_evidence_ratio,
-          "after a scan that contradicted the pose, so much must be explained ...");
+          "where the scan disagrees with dead reckoning, so much must be explained; after a scan "
+          "that contradicted the pose also ...");
     field("regain_way_m", self.regain_way_m,
           "... for so long a way (m) before the pose is trusted again: mines look like themselves");
     field("fewest_returns", self.fewest_returns,
@@ -66,6 +67,7 @@ struct StatusOptions {
 /// What a fit of all points says of how well it explains the scan; shares of the returns.
 struct FitQuality {
   bool converged = false;
+  bool agrees = true;           ///< with dead reckoning
   double evidence_ratio = 0.0;  ///< of what a scan of nothing but the map's walls would give
   double returns = 0.0;
   double wall_ratio = 0.0;
