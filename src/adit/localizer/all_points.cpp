@@ -49,8 +49,15 @@ bool Localizer::is_poor(const ScanFit& fit, const PoseWithCovariance& prediction
   const FitQuality quality = quality_of(fit);
   const Vector3d off = difference(prediction.pose, fit.pose);
   return !quality.converged || quality.evidence_ratio < options.poor_evidence_ratio ||
-         quality.behind_ratio > options.poor_behind_ratio ||
+         quality.behind_ratio > options.poor_behind_ratio || has_lost_direction(fit) ||
          off.dot(prediction.covariance.inverse() * off) > options.poor_chi_square;
+}
+
+/// Whether the scan leaves a direction open that the last one showed: what showed it may be in
+/// sight still, but too far from where this fit expects it.
+bool Localizer::has_lost_direction(const ScanFit& fit) const {
+  return !estimate_.dead_reckoned && !estimate_.open_direction &&
+         open_direction(fix_covariance(fit.information), settings_.status).has_value();
 }
 
 /// The most plausible fit near the prediction: from the features, from the prediction itself, from

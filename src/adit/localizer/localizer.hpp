@@ -91,6 +91,7 @@ class Localizer {
   PoseWithCovariance loose(const PoseWithCovariance& prediction) const;
   PoseWithCovariance pose_of(const ScanFit& fit, const PoseWithCovariance& prior) const;
   ScanFit refine_rival(const RefinementInput& input);
+  bool has_lost_direction(const ScanFit& fit) const;
   bool is_poor(const ScanFit& fit, const PoseWithCovariance& prediction) const;
   void search(const RefinementInput& input, const PoseWithCovariance& prediction);
   void change_places(const RefinementInput& input);

@@ -188,7 +188,7 @@ TEST_F(LocalizerTest, OddOdometryAndMountingsCostTheirScanAndNoOther) {
     const Estimate& e = localizer.update(scan, odometry);
     const bool odd = i == 3 || i == 5;
     EXPECT_EQ(e.status, odd ? Status::lost : Status::ok) << i;
-    EXPECT_EQ(e.pairs.empty(), odd) << i;
+    EXPECT_EQ(e.dead_reckoned, odd) << i;
     EXPECT_TRUE(e.pose.is_finite() && e.covariance.allFinite()) << i;
     if (!odd) {
       EXPECT_LT(position_error(e.pose, drive.truth[i]), 0.01) << i;
@@ -351,8 +351,9 @@ TEST_F(LocalizerTest, NothingIsKnownInAnEmptyMap) {
 
 TEST_F(LocalizerTest, TheErrorThatThePlanSharesStandsBesideTheFilter) {
   LocalizerSettings rough = settings();
+  rough.estimator = Estimator::features;
   rough.map.sigma_m = 0.2;
-  rough.localizer.map_stretch_m = 4.0;
+  rough.belief.map_stretch_m = 4.0;
   for (const Estimate& e : run(drive, rough)) {
     EXPECT_GT(e.covariance(0, 0), 0.2 * 0.2);
     EXPECT_GT(e.covariance(1, 1), 0.2 * 0.2);

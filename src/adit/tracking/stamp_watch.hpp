@@ -16,7 +16,7 @@ enum class StampOrder {
 
 /// When a step between stamps is a gap, and when a clock has jumped.
 struct StampOptions {
-  double gap_s = 5.0;
+  double gap_s = 3.5;
   double jump_s = 60.0;
 
   template <class Self, class Field>
