@@ -114,7 +114,7 @@ TrialScene make_scene(const TrialOptions& options, std::uint64_t seed) {
   scene.settings.estimator = options.estimator;
   scene.settings.scanner = scene.scanner.model;
   scene.settings.odometry = scene.drive.odometry;
-  scene.settings.map.prior_metres = 2.0;  // as `adit localize` where nothing is stated
+  scene.settings.map.is_stated = options.map_sigma != "unknown";
   if (options.map_sigma != "unknown") {
     state_map_sigma(options.stated_map_sigma().value_or(plan_error(scene.world)), scene.settings);
   }
@@ -123,7 +123,6 @@ TrialScene make_scene(const TrialOptions& options, std::uint64_t seed) {
 
 void state_map_sigma(double sigma_m, LocalizerSettings& settings) {
   settings.map.sigma_m = sigma_m;
-  settings.map.prior_metres = MapErrorOptions{}.prior_metres;
 }
 
 Recording record(const TrialScene& scene, std::span<const Pose2> path, std::uint64_t seed) {

@@ -11,7 +11,6 @@
 namespace adit {
 namespace {
 
-constexpr double kUnstatedMapMetres = 2.0;
 constexpr const char* kConfigured = "configuration";
 constexpr const char* kFromFields = "the log's own fields";
 constexpr const char* kEstimated = "estimated from the log";
@@ -133,10 +132,7 @@ LogSettings settle(const LoadedConfiguration& loaded, const Log& log) {
   for (const ConfigField& field : fields_of(settings.configuration)) {
     if (is_reported(field)) settings.sources.try_emplace(field.name(), kDefault);
   }
-  // What nobody stated gives way to the first residuals.
-  if (!loaded.has("map.sigma_m") && !loaded.has("map.prior_metres")) {
-    localizer.map.prior_metres = kUnstatedMapMetres;
-  }
+  localizer.map.is_stated = loaded.has("map.sigma_m");
   // Features alone leave no residuals of single beams to learn the map's error from.
   if (localizer.estimator != Estimator::features) settings.sources["map.sigma_m"] += kThenLearnt;
   return settings;

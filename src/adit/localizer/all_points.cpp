@@ -118,6 +118,10 @@ void Localizer::weigh_rival(const RefinementInput& input, const ScanFit& rival_f
     rival_->lead = std::clamp(rival_->lead + gain, -options.rival_gain, options.rival_gain);
     rival_->at = pose_of(rival_fit, rival_->at);
   }
+  if (!stands && reconciled()) {
+    rival_.reset();
+    return;
+  }
   if (rival_->lead < -options.ambiguous_gain) {
     change_places(input);
     return;
@@ -127,6 +131,13 @@ void Localizer::weigh_rival(const RefinementInput& input, const ScanFit& rival_f
     return;
   }
   ambiguous_ = stands && std::abs(rival_->lead) < options.ambiguous_gain;
+}
+
+/// Whether the rival has become so unsure that the estimate is within its reach: they are one.
+bool Localizer::reconciled() const {
+  const Vector3d apart = difference(rival_->at.pose, scan_fit_.pose);
+  const Matrix3d spread = rival_->at.covariance + fix_covariance(scan_fit_.information);
+  return apart.dot(spread.inverse() * apart) < settings_.status.reconciled_chi_square;
 }
 
 /// The scans speak for the rival: it becomes the estimate, and the estimate its rival.

@@ -67,6 +67,7 @@ void Localizer::start(const Pose2& map_from_vehicle, const std::optional<Matrix3
   const Vector3d variance(metres * metres, metres * metres, radians * radians);
   tracker_.start({map_from_vehicle, covariance.value_or(Matrix3d(variance.asDiagonal()))});
   map_error_ = MapErrorEstimator(settings_.map);
+  first_map_error_ = FirstMapError{};
   stamps_.reset();
   last_odometry_.reset();
   last_gyro_.reset();

@@ -82,6 +82,7 @@ class Localizer {
   void estimate_pose();
   void refine_pose(const LaserScan& scan);
   void track_pose();
+  void learn_map_error();
   void judge(double stamp);
 
   bool uses_points() const { return settings_.estimator != Estimator::features; }
@@ -94,6 +95,7 @@ class Localizer {
   bool has_lost_direction(const ScanFit& fit) const;
   bool is_poor(const ScanFit& fit, const PoseWithCovariance& prediction) const;
   void search(const RefinementInput& input, const PoseWithCovariance& prediction);
+  bool reconciled() const;
   void change_places(const RefinementInput& input);
   void weigh_rival(const RefinementInput& input, const ScanFit& rival_fit);
   Matrix3d floored(const Matrix3d& covariance) const;
@@ -112,6 +114,7 @@ class Localizer {
   PoseHistory gyro_;
   StampWatch stamps_;
   MapErrorEstimator map_error_;
+  FirstMapError first_map_error_;
   PoseTracker tracker_;
 
   // Of the last scan.

@@ -188,6 +188,17 @@ void Localizer::track_pose() {
   const double chi_square = tracker_.update(fix, settings_.tracking);
   if (chi_square > gate && !rival_) rival_ = Rival{before, 0.0, 0.0};
   if (!believed_) return;
+  learn_map_error();
+}
+
+/// From the residuals of a scan that the pose explains.
+void Localizer::learn_map_error() {
+  if (!settings_.map.is_stated && first_map_error_.is_open()) {
+    first_map_error_.add(refiner_.beams(), scanner_);
+    MapErrorOptions options = settings_.map;
+    options.sigma_m = first_map_error_.sigma_m();
+    map_error_ = MapErrorEstimator(options);
+  }
   map_error_.add(refiner_.beams(), refiner_.on_wall(), scanner_, tracker_.estimate().covariance);
 }
 

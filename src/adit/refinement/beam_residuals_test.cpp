@@ -118,7 +118,7 @@ const Case kCases[] = {
     {"stamp_in_the_middle", 360, -kPi, radians(1.0), kMounting, kDrive, SweepMoment::middle},
     {"stamp_at_end", 271, radians(135.0), radians(-1.0), kMounting, kDrive, SweepMoment::end}};
 
-bool moves(const Case& setting) { return setting.twist.velocity().norm() > 0.0; }
+bool moves(const Case& setting) { return setting.twist.vector().norm() > 0.0; }
 
 ScannerModel scanner_of(const Case& setting) {
   ScannerModel scanner;

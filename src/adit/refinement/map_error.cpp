@@ -17,6 +17,26 @@ constexpr double kCutTails = 1.2;
 
 }  // namespace
 
+void FirstMapError::add(std::span<const BeamResidual> beams, const ScannerModel& scanner) {
+  constexpr double kMostOff = 0.6;           // m; farther from its wall a return is another thing's
+  constexpr double kSigmaOfMedian = 1.4826;  // of absolute values that are normal
+  across_.clear();
+  double noise = 0.0;
+  for (const BeamResidual& beam : beams) {
+    const double cosine = 1.0 / beam.stretch;
+    const double across = std::abs(beam.residual * cosine);
+    if (!beam.has_return || across > kMostOff) continue;
+    across_.push_back(across);
+    noise += beam_variance(scanner, beam.range, cosine, 0.0) * cosine * cosine;
+  }
+  if (across_.empty()) return;
+  const auto middle = across_.begin() + static_cast<std::ptrdiff_t>(across_.size() / 2);
+  std::nth_element(across_.begin(), middle, across_.end());
+  const double sigma = kSigmaOfMedian * *middle;
+  variances_ += std::max(0.0, sigma * sigma - noise / static_cast<double>(across_.size()));
+  ++scans_;
+}
+
 MapErrorEstimator::MapErrorEstimator(const MapErrorOptions& options) : options_(options) {
   settle();
 }

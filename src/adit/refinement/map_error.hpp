@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "adit/refinement/beam_residuals.hpp"
 #include "adit/scan/scanner_model.hpp"
@@ -28,7 +29,8 @@ struct MapError {
 
 /// What is believed of the map before the first scan, and how fast it is learnt.
 struct MapErrorOptions {
-  double sigma_m = 0.15;
+  double sigma_m = 0.05;
+  bool is_stated = true;  ///< where it is not, the first scans choose; see `FirstMapError`
   double length_m = 1.5;
   double roughness_share = 0.02;
   double prior_metres = 60.0;
@@ -47,6 +49,27 @@ struct MapErrorOptions {
     field("memory_metres", self.memory_metres,
           "so many metres of wall are remembered: what a few dozen scans see (m)");
   }
+};
+
+/// A first guess of the map's error, from scans that were fitted with another.
+///
+/// What is learnt from residuals depends on which beams are taken for walls, and that on the error
+/// believed; from a start that is far off it would not come back. The median of all residuals that
+/// may still be the wall's does not ask.
+class FirstMapError {
+ public:
+  bool is_open() const { return scans_ < kScans; }
+  void add(std::span<const BeamResidual> beams, const ScannerModel& scanner);
+  /// Mean over the scans so far (m), generous: from too much, learning finds down by itself.
+  double sigma_m() const { return scans_ > 0 ? kGenerous * std::sqrt(variances_ / scans_) : 0.0; }
+
+ private:
+  static constexpr double kGenerous = 1.7;
+  static constexpr int kScans = 5;
+
+  int scans_ = 0;
+  double variances_ = 0.0;
+  std::vector<double> across_;  // absolute residuals across the wall, of one scan
 };
 
 /// Learns the map's error from the residuals of the fits, scan by scan.

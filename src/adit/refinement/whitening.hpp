@@ -88,7 +88,7 @@ class OffsetWhitener {
   }
 
  private:
-  static constexpr double kHuber = 1.345;  // 95 % efficient where all noise is normal
+  static constexpr double kHuber = 1.8;  // 98 % efficient where all noise is normal
 
   double variance_;
   double per_metre_;

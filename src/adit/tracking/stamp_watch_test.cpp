@@ -19,7 +19,7 @@ struct Step {
 void expect_steps(const std::vector<Step>& steps) {
   StampWatch watch;
   for (const Step& step : steps) {
-    EXPECT_EQ(watch.next(step.stamp, kOptions), step.order) << step.stamp;
+    EXPECT_EQ(watch.next(step.stamp, 0, kOptions), step.order) << step.stamp;
     EXPECT_DOUBLE_EQ(watch.step_s(), step.step_s) << step.stamp;
   }
 }
@@ -47,7 +47,7 @@ TEST(StampWatch, LimitsBelongToTheMilderClass) {
 TEST(StampWatch, CountsWhatItMet) {
   StampWatch watch;
   for (const double stamp : {0.0, 1.0, 1.0, 1.0, 0.5, 0.0, 5.0, 9.0, 13.0, 500.0, 500.1}) {
-    watch.next(stamp, kOptions);
+    watch.next(stamp, 0, kOptions);
   }
   EXPECT_EQ(watch.counts().duplicates, 2);
   EXPECT_EQ(watch.counts().late, 2);
@@ -69,13 +69,22 @@ TEST(StampWatch, AStampThatIsNoNumberIsAJumpAndSoIsTheNext) {
   }
 }
 
+TEST(StampWatch, TwoScannersMayShareAStamp) {
+  StampWatch watch;
+  watch.next(1.0, 0, kOptions);
+  EXPECT_EQ(watch.next(1.0, 1, kOptions), StampOrder::in_order);
+  EXPECT_EQ(watch.next(1.2, 0, kOptions), StampOrder::in_order);
+  EXPECT_EQ(watch.next(1.2, 0, kOptions), StampOrder::duplicate);
+  EXPECT_EQ(watch.counts().duplicates, 1);
+}
+
 TEST(StampWatch, AResetForgets) {
   StampWatch watch;
-  watch.next(1.0, kOptions);
-  watch.next(1.0, kOptions);
+  watch.next(1.0, 0, kOptions);
+  watch.next(1.0, 0, kOptions);
   watch.reset();
   EXPECT_EQ(watch.counts().duplicates, 0);
-  EXPECT_EQ(watch.next(1.0, kOptions), StampOrder::first);
+  EXPECT_EQ(watch.next(1.0, 0, kOptions), StampOrder::first);
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ struct StatusOptions {
   double rival_gain = 7.0;
   double rival_way_m = 20.0;
   double rival_evidence_ratio = 0.6;
+  double reconciled_chi_square = 6.25;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -61,6 +62,9 @@ struct StatusOptions {
     field("rival_evidence_ratio", self.rival_evidence_ratio,
           "after that, one that explains less than this share of what the estimate explains is "
           "dropped");
+    field("reconciled_chi_square", self.reconciled_chi_square,
+          "a rival that the estimate is no farther from than this, for the rival's own doubt, is "
+          "none; 10 % of three degrees of freedom");
   }
 };
 

@@ -14,8 +14,14 @@ FitQuality good() {
   FitQuality quality;
   quality.converged = true;
   quality.evidence_ratio = 0.9;
+  quality.returns = 300.0;
   quality.wall_ratio = 0.9;
-  quality.behind_ratio = 0.02;
+  return quality;
+}
+
+FitQuality bad() {
+  FitQuality quality = good();
+  quality.evidence_ratio = 0.0;
   return quality;
 }
 
@@ -31,38 +37,47 @@ Matrix3d covariance(double along, double across, double axis, double heading) {
   return result;
 }
 
-TEST(Explains, TakesAGoodFit) {
-  EXPECT_TRUE(explains(good(), false, {}));
-  EXPECT_TRUE(explains(good(), true, {}));
-}
-
-TEST(Explains, AsksMoreAfterAScanThatDidNotFit) {
-  const StatusOptions options;
-  FitQuality between = good();
-  between.evidence_ratio = 0.5 * (options.least_evidence_ratio + options.regain_evidence_ratio);
-  EXPECT_TRUE(explains(between, false, options));
-  EXPECT_FALSE(explains(between, true, options));
-  between.evidence_ratio = options.regain_evidence_ratio + 0.01;
-  EXPECT_TRUE(explains(between, true, options));
-  between.evidence_ratio = options.least_evidence_ratio - 0.01;
-  EXPECT_FALSE(explains(between, false, options));
-}
-
 TEST(Explains, RefusesEachFaultAlone) {
   const StatusOptions options;
+  EXPECT_TRUE(explains(good(), options));
   FitQuality fit = good();
   fit.converged = false;
-  EXPECT_FALSE(explains(fit, false, options));
+  EXPECT_FALSE(explains(fit, options));
   fit = good();
   fit.wall_ratio = options.least_wall_ratio - 0.01;
-  EXPECT_FALSE(explains(fit, false, options));
+  EXPECT_FALSE(explains(fit, options));
   fit.wall_ratio = options.least_wall_ratio + 0.01;
-  EXPECT_TRUE(explains(fit, false, options));
+  EXPECT_TRUE(explains(fit, options));
   fit = good();
   fit.behind_ratio = options.most_behind_ratio + 0.01;
-  EXPECT_FALSE(explains(fit, false, options));
+  EXPECT_FALSE(explains(fit, options));
   fit.behind_ratio = options.most_behind_ratio - 0.01;
-  EXPECT_TRUE(explains(fit, false, options));
+  EXPECT_TRUE(explains(fit, options));
+}
+
+/// The evidence (of the expected) from which such a fit explains its scan.
+double evidence_asked(FitQuality fit, const StatusOptions& options) {
+  fit.evidence_ratio = 0.0;
+  while (!explains(fit, options) && fit.evidence_ratio < 2.0) fit.evidence_ratio += 1e-3;
+  return fit.evidence_ratio;
+}
+
+TEST(Explains, AsksMoreWhereRockIsSeenThrough) {
+  const StatusOptions options;
+  FitQuality fit = good();
+  EXPECT_NEAR(evidence_asked(fit, options), options.least_evidence_ratio, 2e-3);
+  fit.behind_ratio = 0.05;
+  EXPECT_NEAR(evidence_asked(fit, options),
+              options.least_evidence_ratio + 0.05 * options.evidence_per_behind, 2e-3);
+  fit.behind_ratio = options.most_behind_ratio - 0.01;
+  EXPECT_NEAR(evidence_asked(fit, options), options.most_evidence_ratio, 2e-3);
+}
+
+TEST(Explains, AsksMoreWhereScanAndDeadReckoningDisagree) {
+  const StatusOptions options;
+  FitQuality fit = good();
+  fit.agrees = false;
+  EXPECT_NEAR(evidence_asked(fit, options), options.regain_evidence_ratio, 2e-3);
 }
 
 TEST(Explains, RefusesWhatIsNoNumber) {
@@ -70,9 +85,62 @@ TEST(Explains, RefusesWhatIsNoNumber) {
        {&FitQuality::evidence_ratio, &FitQuality::wall_ratio, &FitQuality::behind_ratio}) {
     FitQuality fit = good();
     fit.*ratio = kNan;
-    EXPECT_FALSE(explains(fit, false, {}));
+    EXPECT_FALSE(explains(fit, {}));
   }
-  EXPECT_FALSE(explains({}, false, {}));
+  EXPECT_FALSE(explains({}, {}));
+}
+
+TEST(Trust, HoldsWhileScansExplainThemselves) {
+  Trust trust;
+  for (int i = 0; i < 10; ++i) EXPECT_TRUE(trust.next(good(), 1.0, {}));
+}
+
+/// How far (m) the vehicle must go in steps until the pose is trusted again.
+double way_to_regain(Trust& trust, const FitQuality& quality, double step_m) {
+  double way = step_m;
+  while (!trust.next(quality, step_m, {}) && way < 100.0) way += step_m;
+  return way;
+}
+
+TEST(Trust, ComesBackOnlyAfterSomeWay) {
+  const StatusOptions options;
+  Trust trust;
+  EXPECT_TRUE(trust.next(good(), 1.0, options));
+  EXPECT_FALSE(trust.next(bad(), 1.0, options));
+  // Standing shows the same walls again and again: it regains nothing.
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(trust.next(good(), 0.0, options));
+  EXPECT_NEAR(way_to_regain(trust, good(), 0.25), options.regain_way_m, 0.26);
+  EXPECT_TRUE(trust.next(good(), 0.0, options));
+}
+
+TEST(Trust, ANewContradictionBeginsTheWayAnew) {
+  const StatusOptions options;
+  Trust trust;
+  EXPECT_FALSE(trust.next(bad(), 1.0, options));
+  EXPECT_FALSE(trust.next(good(), 0.8 * options.regain_way_m, options));
+  EXPECT_FALSE(trust.next(bad(), 1.0, options));
+  EXPECT_FALSE(trust.next(good(), 0.8 * options.regain_way_m, options));
+}
+
+TEST(Trust, WhatExplainsJustEnoughDoesNotRegain) {
+  const StatusOptions options;
+  FitQuality fair = good();
+  fair.evidence_ratio = options.regain_evidence_ratio - 0.01;
+  Trust trust;
+  EXPECT_TRUE(trust.next(fair, 1.0, options));
+  EXPECT_FALSE(trust.next(bad(), 1.0, options));
+  EXPECT_FALSE(trust.next(fair, 10.0 * options.regain_way_m, options));
+  EXPECT_NEAR(way_to_regain(trust, good(), 0.25), options.regain_way_m, 0.26);
+}
+
+TEST(Trust, ABlindScannerContradictsNothing) {
+  const StatusOptions options;
+  FitQuality blind = bad();
+  blind.returns = options.fewest_returns - 1.0;
+  Trust trust;
+  EXPECT_TRUE(trust.next(good(), 1.0, options));
+  EXPECT_FALSE(trust.next(blind, 1.0, options));
+  EXPECT_TRUE(trust.next(good(), 1.0, options));
 }
 
 TEST(OpenDirection, IsTheAxisThatTheScanDoesNotShow) {
