@@ -1,4 +1,4 @@
-// The paper's run, over a few seeds that no tuning has seen; bench/mockup_trials has many.
+// The paper's run, over a few seeds that no tuning has seen; bench/estimator_trials has many.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -249,6 +249,16 @@ TEST(PoseTracker, AStartForgetsAllThatWasBefore) {
   EXPECT_EQ(used.estimate().pose.vector(), fresh.estimate().pose.vector());
 }
 
+TEST(PoseTracker, AStartWithoutAnyDoubtIsAStart) {
+  PoseTracker tracker;
+  tracker.start({{1.0, 2.0, 0.3}, Matrix3d::Zero()});
+  const double chi_square = tracker.update(
+      fix({1.01, 2.0, 0.3}, diagonal(0.1, 0.1, 0.01), diagonal(0.05, 0.05, 0.005)), {});
+  EXPECT_NEAR(chi_square, 0.01, 1e-4);
+  EXPECT_NEAR(tracker.estimate().pose.x, 1.0, 1e-6);
+  EXPECT_GT(least_eigenvalue(tracker.estimate().covariance), 0.0);
+}
+
 TEST(PoseTracker, TheCovarianceStaysOneOverTenThousandSteps) {
   Random random(6);
   PoseTracker tracker;
