@@ -118,16 +118,11 @@ void BeamResiduals::compute(const LineMap& map, const Pose2& map_from_vehicle,
   }
 }
 
-/// The wall that the beam met: the one in its way, or a neighbour that explains the range better
-/// where the scanner's noise cannot.
-const WallLine& BeamResiduals::wall_met(const WallLine& in_the_way, const Vector2d& origin,
-                                        const Vector2d& direction, double measured) {
+/// The wall that the beam met: the one in its way, which it misses by `least`, or a neighbour that
+/// explains the range better.
+const WallLine& BeamResiduals::wall_met(const WallLine& in_the_way, const Vector2d& end,
+                                        const Vector2d& direction, double least) {
   const WallLine* best = &in_the_way;
-  const double cosine = in_the_way.normal.dot(direction);
-  const double range = in_the_way.normal.dot(in_the_way.foot - origin) / cosine;
-  double least = std::abs(measured - range);
-  if (!(least > noise_reach_ && least < kFarOff)) return *best;
-  const Vector2d end = origin + measured * direction;
   for (const WallLine& other : neighbours_.of(in_the_way.wall)) {
     const double distance = distance_along(other, end, direction, least);
     if (!(distance < least)) continue;
@@ -172,14 +167,23 @@ void BeamResiduals::look_from(const LineMap& map, const Station& station, const 
       const double turn = station.turn_rate * lag;
       direction = (direction + turn * perpendicular(direction)) / std::sqrt(1.0 + turn * turn);
     }
-    const WallLine& met = has_return ? wall_met(wall, origin, direction, scan_->ranges[i]) : wall;
-    double cosine = met.normal.dot(direction);
+    const WallLine* met = &wall;
+    double cosine = wall.normal.dot(direction);
+    double range = wall.normal.dot(wall.foot - origin) / cosine;
+    const double measured = has_return ? scan_->ranges[i] : range;
+    const double missed = std::abs(measured - range);
+    // A neighbour is asked only where the scanner's noise cannot explain the range.
+    if (missed > noise_reach_ && missed < kFarOff) {
+      met = &wall_met(wall, origin + measured * direction, direction, missed);
+      cosine = met->normal.dot(direction);
+      range = met->normal.dot(met->foot - origin) / cosine;
+    }
     if (!(std::abs(cosine) > least_cosine)) continue;
     BeamResidual& out = beams_.emplace_back();
-    out.normal = cosine < 0.0 ? met.normal : Vector2d(-met.normal);
+    out.normal = cosine < 0.0 ? met->normal : Vector2d(-met->normal);
     out.stretch = -1.0 / std::abs(cosine);
-    out.range = out.normal.dot(met.foot - origin) * out.stretch;
-    out.residual = has_return ? scan_->ranges[i] - out.range : 0.0;
+    out.range = range;
+    out.residual = has_return ? measured - range : 0.0;
     out.direction = direction;
     out.hit = origin + out.range * direction;
     // The laser's gradient (Censi 2007), and what turning the vehicle adds by the lever arm.
@@ -189,7 +193,7 @@ void BeamResiduals::look_from(const LineMap& map, const Station& station, const 
     out.gradient = Vector3d(out.normal.x(), out.normal.y(), across) * -out.stretch;
     out.tau = tau;
     out.beam = static_cast<int>(i);
-    out.wall = met.wall;
+    out.wall = met->wall;
     out.has_return = has_return;
   }
 }

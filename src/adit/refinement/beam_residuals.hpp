@@ -17,15 +17,15 @@ namespace adit {
 
 /// One beam against the wall that the map has in its way.
 struct BeamResidual {
-  double residual = 0.0;                  ///< measured minus predicted range (m)
-  Vector3d gradient = Vector3d::Zero();   ///< of the predicted range, over the vehicle's pose
-  double stretch = 0.0;                   ///< range per metre that the wall lies off: 1 / (n . d)
-  double range = 0.0;                     ///< predicted (m)
-  double tau = 0.0;                       ///< time from the stamp (s)
-  Vector2d normal = Vector2d::Zero();     ///< of the wall, towards the scanner
-  Vector2d direction = Vector2d::Zero();  ///< of the beam (map axes)
-  Vector2d hit = Vector2d::Zero();        ///< where the beam meets the wall (map axes, m)
-  int beam = -1;                          ///< in the scan
+  double residual = 0.0;  ///< measured minus predicted range (m)
+  Vector3d gradient;      ///< of the predicted range, over the vehicle's pose
+  double stretch = 0.0;   ///< range per metre that the wall lies off: 1 / (n . d)
+  double range = 0.0;     ///< predicted (m)
+  double tau = 0.0;       ///< time from the stamp (s)
+  Vector2d normal;        ///< of the wall, towards the scanner
+  Vector2d direction;     ///< of the beam (map axes)
+  Vector2d hit;           ///< where the beam meets the wall (map axes, m)
+  int beam = -1;          ///< in the scan
   int wall = -1;
   bool has_return = false;
 };
@@ -65,8 +65,8 @@ class BeamResiduals {
   std::size_t station_count(const SweepPath& path, double spacing) const;
   void look_from(const LineMap& map, const Station& station, const Vector2d& vehicle,
                  double least_cosine, std::size_t stride);
-  const WallLine& wall_met(const WallLine& in_the_way, const Vector2d& origin,
-                           const Vector2d& direction, double measured);
+  const WallLine& wall_met(const WallLine& in_the_way, const Vector2d& end,
+                           const Vector2d& direction, double least);
 
   double longest_return() const;
   bool is_return(std::size_t beam) const;

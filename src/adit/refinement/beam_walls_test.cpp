@@ -130,5 +130,20 @@ TEST(BeamResiduals, AnotherFanOfAsManyBeamsIsAnotherFan) {
   EXPECT_NEAR(residuals.beams().front().range, 5.0 / std::cos(radians(5.0)), 1e-9);
 }
 
+TEST(BeamResiduals, UnevenBearingsAreThoseOfTheScan) {
+  const LineMap map = map_of({{Vector2d(5.0, -20.0), Vector2d(5.0, 20.0)}});
+  BeamResiduals residuals;
+  LaserScan scan = star(5.0);
+  residuals.set_scan(scan, fine_scanner());
+  residuals.compute(map, {}, {}, {}, {});
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
+    scan.bearings.push_back(scan.bearing(i) + radians(i % 2 == 0 ? 1.0 : -2.0));
+  }
+  residuals.set_scan(scan, fine_scanner());
+  residuals.compute(map, {}, {}, {}, {});
+  EXPECT_NEAR(residuals.beams()[0].range, 5.0 / std::cos(radians(1.0)), 1e-9);
+  EXPECT_NEAR(residuals.beams()[1].range, 5.0 / std::cos(radians(8.0)), 1e-9);
+}
+
 }  // namespace
 }  // namespace adit

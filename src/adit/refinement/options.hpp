@@ -11,7 +11,7 @@ struct RefinementOptions {
   double long_ratio = 0.1;
   double max_incidence_rad = radians(89.0);
   int max_iterations = 8;
-  double step_tolerance = 0.5;
+  double step_tolerance = 1.0;
   double max_step_m = 0.7;
   double max_step_rad = 0.15;
   double station_spacing_m = 0.1;

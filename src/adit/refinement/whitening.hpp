@@ -73,9 +73,9 @@ class OffsetWhitener {
     const double residual_innovation = residual - stretch * residual_;
     double weight = 1.0 / (gain * stretch + variance);
     // A beam that its neighbours gainsay counts less (Huber 1964).
-    const double sigmas = std::abs(residual_innovation) * std::sqrt(weight);
-    if (sigmas > kHuber) {
-      const double inflated = (gain * stretch + variance) * sigmas / kHuber;
+    const double surprise = residual_innovation * residual_innovation * weight;
+    if (surprise > kHuber * kHuber) {
+      const double inflated = (gain * stretch + variance) * std::sqrt(surprise) / kHuber;
       variance = inflated - gain * stretch;
       weight = 1.0 / inflated;
     }

@@ -22,11 +22,21 @@ bool Trust::next(const FitQuality& quality, double way_m, const StatusOptions& o
     regained_m_ = 0.0;
     return false;
   }
-  if (!contradicted_) return true;
-  const bool regains = quality.evidence_ratio > options.regain_evidence_ratio;
+  if (!contradicted_) {
+    note_usual(quality.evidence_ratio);
+    return true;
+  }
+  const double asked = scans_ > 0.0 ? usual_ - options.regain_slack : options.regain_evidence_ratio;
+  const bool regains = quality.evidence_ratio > asked;
   regained_m_ = regains ? regained_m_ + way_m : 0.0;
   contradicted_ = regained_m_ < options.regain_way_m;
   return !contradicted_;
+}
+
+void Trust::note_usual(double evidence_ratio) {
+  constexpr double kMostScans = 100.0;
+  scans_ = std::min(scans_ + 1.0, kMostScans);
+  usual_ += (evidence_ratio - usual_) / scans_;
 }
 
 std::optional<Vector2d> open_direction(const Matrix3d& fix_covariance,

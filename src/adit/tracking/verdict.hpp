@@ -14,7 +14,8 @@ struct StatusOptions {
   double most_evidence_ratio = 0.55;
   double used_evidence_ratio = 0.15;
   double regain_evidence_ratio = 0.75;
-  double regain_way_m = 5.0;
+  double regain_slack = 0.1;
+  double regain_way_m = 8.0;
   double fewest_returns = 20.0;
   double least_wall_ratio = 0.3;
   double most_behind_ratio = 0.5;
@@ -38,8 +39,10 @@ struct StatusOptions {
           "a lost scan of which so much is explained still corrects dead reckoning, if the two "
           "agree");
     field("regain_evidence_ratio", self.regain_evidence_ratio,
-          "where the scan disagrees with dead reckoning, so much must be explained; after a scan "
-          "that contradicted the pose also ...");
+          "where the scan disagrees with dead reckoning, so much must be explained");
+    field("regain_slack", self.regain_slack,
+          "after a scan that contradicted the pose, as much must be explained as is usual here but "
+          "for this ...");
     field("regain_way_m", self.regain_way_m,
           "... for so long a way (m) before the pose is trusted again: mines look like themselves");
     field("fewest_returns", self.fewest_returns,
@@ -91,7 +94,11 @@ class Trust {
   bool contradicted() const { return contradicted_; }
 
  private:
+  void note_usual(double evidence_ratio);
+
   bool contradicted_ = false;
+  double usual_ = 0.0;  // evidence ratio while trusted, of so many scans, a sliding mean
+  double scans_ = 0.0;
   double regained_m_ = 0.0;
 };
 
