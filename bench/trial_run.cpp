@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::uint64_t kGuesses = 22;  // stream of the seed
 
-constexpr double kNearIntersection = 4.0;  // m, issue 3: at and near intersections
+constexpr double kNearIntersection = 4.0;  // m, docs/benchmarks.md: at and near intersections
 constexpr double kWrong = 1.0;             // m
 
 bool is_near(const std::vector<Vector2d>& places, const Vector2d& point) {

@@ -48,10 +48,6 @@ Linearised error_of(FeatureKind kind, const Vector2d& sensed, const Vector2d& mo
                                    : corner_error(sensed, model, pose);
 }
 
-Vector3d difference(const Pose2& a, const Pose2& b) {
-  return {a.x - b.x, a.y - b.y, wrap_angle(a.theta - b.theta)};
-}
-
 /// Covariance of a line's errors: its points' noise, and the map's line off and turned by
 /// independent errors of its two ends, as this piece of it sees them.
 Matrix2d line_covariance(const Line& sensed, const Line& model, double map_sigma) {
@@ -144,7 +140,7 @@ FeatureEstimator::System FeatureEstimator::linearise(
   }
   if (prior) {
     const Matrix3d information = prior->covariance.inverse();
-    const Vector3d error = difference(prior->pose, pose);
+    const Vector3d error = difference(pose, prior->pose);
     system.information += information;
     system.gradient -= information * error;
     system.cost += error.dot(information * error);

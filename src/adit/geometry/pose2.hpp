@@ -57,6 +57,11 @@ inline Pose2 inverse(const Pose2& a_from_b) {
           wrap_angle(-a_from_b.theta)};
 }
 
+/// From one pose to another of the same frame: x, y and the smaller turn.
+inline Vector3d difference(const Pose2& from, const Pose2& to) {
+  return {to.x - from.x, to.y - from.y, angle_between(from.theta, to.theta)};
+}
+
 /// The pose with its sine and cosine, for carrying many points and directions.
 struct RigidTransform {
   explicit RigidTransform(const Pose2& pose)

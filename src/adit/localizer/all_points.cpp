@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "adit/localizer/fit_quality.hpp"
 #include "adit/localizer/localizer.hpp"
@@ -29,8 +30,10 @@ void Localizer::refine_pose(const LaserScan& scan) {
     is_good = !is_poor(scan_fit_, prediction);
   }
   if (!is_good && settings_.estimator == Estimator::full && !uses_features_) find_by_features();
-  const Stopwatch watch(timings_.search);
-  if (!is_good) search(input, prediction);
+  if (!is_good) {
+    const Stopwatch watch(timings_.search);
+    search(input, prediction);
+  }
   if (rival_fit) weigh_rival(input, *rival_fit);
 }
 
@@ -84,8 +87,7 @@ void Localizer::search(const RefinementInput& input, const PoseWithCovariance& p
   for (std::size_t i = 0; i < count && !rival_; ++i) {
     if (i == best || !fits[i].converged || !elsewhere(fits[i], fits[best])) continue;
     const double gap = scores[best] - scores[i];
-    if (gap < settings_.status.rival_gain)
-      rival_ = Rival{pose_of(fits[i], loose(predicted_)), gap, 0.0};
+    if (gap < settings_.status.rival_gain) add_rival(fits[i], gap);
   }
   scan_fit_ = refine_from(input, starts[best]);
 }
@@ -93,17 +95,21 @@ void Localizer::search(const RefinementInput& input, const PoseWithCovariance& p
 /// The rival stays where its own dead reckoning leaves it: the walls that it holds for wrong must
 /// not draw it to the estimate.
 ScanFit Localizer::refine_rival(const RefinementInput& input) {
-  const PoseWithCovariance at{rival_->at.pose, floored(rival_->at.covariance)};
+  const PoseWithCovariance& rival = rival_->tracker.estimate();
+  const PoseWithCovariance at{rival.pose, floored(rival.covariance)};
   return refiner_.refine(input, at, at, settings_.refinement);
 }
 
-/// A fit with its prior as a pose: where the last step leads.
-PoseWithCovariance Localizer::pose_of(const ScanFit& fit, const PoseWithCovariance& prior) const {
-  const Matrix3d confidence = prior.covariance.inverse();
-  const Matrix3d covariance = (fit.information + confidence).inverse();
-  const Vector3d move = covariance * (fit.score + confidence * difference(fit.pose, prior.pose));
-  return {{fit.pose.x + move.x(), fit.pose.y + move.y(), wrap_angle(fit.pose.theta + move.z())},
-          covariance};
+/// Another pose that explains the scan about as well, from now on carried along.
+void Localizer::add_rival(const ScanFit& fit, double lead) {
+  rival_ = Rival{tracker_, lead, 0.0};
+  rival_->tracker.update(observation_of(fit), settings_.tracking);
+  ambiguous_ =
+      lead < settings_.status.ambiguous_gain && explains(quality_of(fit), settings_.status);
+}
+
+PoseObservation Localizer::observation_of(const ScanFit& fit) const {
+  return {fit.pose, fit.score, fit.information, fit.white_information};
 }
 
 /// Lets the scan decide between the pose and its rival, who both came here by dead reckoning.
@@ -116,7 +122,6 @@ void Localizer::weigh_rival(const RefinementInput& input, const ScanFit& rival_f
   if (stands) {
     const double gain = shared_ratio(scan_fit_) * (scan_fit_.log_evidence - rival_fit.log_evidence);
     rival_->lead = std::clamp(rival_->lead + gain, -options.rival_gain, options.rival_gain);
-    rival_->at = pose_of(rival_fit, rival_->at);
   }
   if (!stands && reconciled()) {
     rival_.reset();
@@ -126,6 +131,7 @@ void Localizer::weigh_rival(const RefinementInput& input, const ScanFit& rival_f
     change_places(input);
     return;
   }
+  if (stands) rival_->tracker.update(observation_of(rival_fit), settings_.tracking);
   if (rival_->way_m > options.rival_way_m && !(stands && as_good)) {
     rival_.reset();
     return;
@@ -135,19 +141,19 @@ void Localizer::weigh_rival(const RefinementInput& input, const ScanFit& rival_f
 
 /// Whether the rival has become so unsure that the estimate is within its reach: they are one.
 bool Localizer::reconciled() const {
-  const Vector3d apart = difference(rival_->at.pose, scan_fit_.pose);
-  const Matrix3d spread = rival_->at.covariance + fix_covariance(scan_fit_.information);
+  const PoseWithCovariance& rival = rival_->tracker.estimate();
+  const Vector3d apart = difference(rival.pose, scan_fit_.pose);
+  const Matrix3d spread = rival.covariance + fix_covariance(scan_fit_.information);
   return apart.dot(spread.inverse() * apart) < settings_.status.reconciled_chi_square;
 }
 
-/// The scans speak for the rival: it becomes the estimate, and the estimate its rival.
+/// The scans speak for the rival: it becomes the estimate, and the estimate its rival; both as they
+/// were before this scan.
 void Localizer::change_places(const RefinementInput& input) {
-  const PoseWithCovariance beaten = predicted_;
-  tracker_.start(rival_->at);
-  predicted_ = rival_->at;
-  rival_->at = beaten;
+  std::swap(tracker_, rival_->tracker);
   rival_->lead = -rival_->lead;
-  scan_fit_ = refine_from(input, predicted_);
+  predicted_ = tracker_.estimate();
+  scan_fit_ = refine_from(input, {predicted_.pose, floored(predicted_.covariance)});
 }
 
 }  // namespace adit

@@ -8,14 +8,10 @@
 
 namespace adit {
 
-Vector3d difference(const Pose2& from, const Pose2& to) {
-  return {to.x - from.x, to.y - from.y, angle_between(from.theta, to.theta)};
-}
-
 double shared_ratio(const ScanFit& fit) {
-  const double white = fit.white_information.determinant();
-  return white > 0.0 ? std::pow(std::max(0.0, fit.information.determinant()) / white, 1.0 / 6.0)
-                     : 1.0;
+  const double noise = fix_covariance(fit.white_information).determinant();
+  const double all = fix_covariance(fit.information).determinant();
+  return all > 0.0 ? std::clamp(std::pow(std::max(0.0, noise) / all, 1.0 / 6.0), 0.0, 1.0) : 1.0;
 }
 
 double plausibility(const ScanFit& fit, const PoseWithCovariance& prediction, double shared) {

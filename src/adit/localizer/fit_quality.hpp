@@ -5,9 +5,6 @@
 
 namespace adit {
 
-/// From one pose to another: x, y and the smaller turn.
-Vector3d difference(const Pose2& from, const Pose2& to);
-
 /// How well a fit explains its scan.
 FitQuality quality_of(const ScanFit& fit);
 

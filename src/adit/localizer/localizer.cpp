@@ -1,5 +1,7 @@
 #include "adit/localizer/localizer.hpp"
 
+#include <cmath>
+
 namespace adit {
 
 /// The paper's cycle, Fig. 1, with what it names as work to come: all points, and tracking.
@@ -23,14 +25,15 @@ void Localizer::find_by_features() {
 }
 
 const Estimate& Localizer::update(const LaserScan& scan, const Pose2& odom_from_vehicle) {
-  const bool usable = odom_from_vehicle.is_finite() && scan.vehicle_from_laser.is_finite();
-  if (!usable) return skip(scan.stamp);
-  return is_repeated(scan, odom_from_vehicle) ? estimate_ : turn(scan, odom_from_vehicle);
+  if (!odom_from_vehicle.is_finite() || !is_usable(scan)) return skip(scan.stamp);
+  if (is_repeated(scan, odom_from_vehicle)) return estimate_;
+  odometry_.add({scan.stamp, odom_from_vehicle});
+  return turn(scan, odom_from_vehicle);
 }
 
 const Estimate& Localizer::update(const LaserScan& scan) {
+  if (!is_usable(scan)) return skip(scan.stamp);
   const std::optional<Pose2> odometry = odometry_.at(scan.stamp, settings_.localizer.max_age_s);
-  if (!scan.vehicle_from_laser.is_finite()) return skip(scan.stamp);
   return is_repeated(scan, odometry) ? estimate_ : turn(scan, odometry);
 }
 
@@ -38,12 +41,17 @@ const Estimate& Localizer::update(const LaserScan& scan) {
 bool Localizer::is_repeated(const LaserScan& scan, const std::optional<Pose2>& odom_from_vehicle) {
   const StampOrder order = stamps_.next(scan.stamp, scan.scanner, settings_.stamps);
   if (order == StampOrder::jump) {  // what was fed before has stamps of another clock
-    odometry_.clear();
-    gyro_.clear();
+    odometry_.keep_near(scan.stamp, settings_.stamps.jump_s);
+    gyro_.keep_near(scan.stamp, settings_.stamps.jump_s);
   }
+  jumped_ = order == StampOrder::jump;
   if (order != StampOrder::duplicate || odom_from_vehicle.has_value() != last_odometry_.has_value())
     return false;
   return !odom_from_vehicle || odom_from_vehicle->vector() == last_odometry_->vector();
+}
+
+bool Localizer::is_usable(const LaserScan& scan) {
+  return std::isfinite(scan.stamp) && scan.vehicle_from_laser.is_finite();
 }
 
 /// Answers a scan that cannot be used from what is believed already.
@@ -52,6 +60,7 @@ const Estimate& Localizer::skip(double stamp) {
   forget_features();
   scan_fit_ = ScanFit{};
   believed_ = false;
+  contributed_ = false;
   judge(stamp);
   return estimate_;
 }
@@ -62,6 +71,7 @@ Localizer::Localizer(const LineMap& map, const LocalizerSettings& settings)
 }
 
 void Localizer::start(const Pose2& map_from_vehicle, const std::optional<Matrix3d>& covariance) {
+  if (!map_from_vehicle.is_finite() || (covariance && !covariance->allFinite())) return;
   const double metres = settings_.localizer.start_sigma_m;
   const double radians = settings_.localizer.start_sigma_rad;
   const Vector3d variance(metres * metres, metres * metres, radians * radians);
@@ -69,11 +79,16 @@ void Localizer::start(const Pose2& map_from_vehicle, const std::optional<Matrix3
   map_error_ = MapErrorEstimator(settings_.map);
   first_map_error_ = FirstMapError{};
   stamps_.reset();
+  odometry_.clear();
+  gyro_.clear();
   last_odometry_.reset();
   last_gyro_.reset();
   trust_.reset();
   clear_ = true;
   rival_.reset();
+  estimate_ = Estimate{};
+  estimate_.pose = tracker_.estimate().pose;
+  estimate_.covariance = tracker_.estimate().covariance;
 }
 
 void Localizer::add_odometry(const StampedPose& odom_from_vehicle) {

@@ -29,6 +29,7 @@ class Localizer {
   ~Localizer() = default;
 
   /// Says where the vehicle is at the next scan, and how surely (default: the start sigmas).
+  /// Forgets all else, what was fed as well. A start that is not finite is ignored.
   void start(const Pose2& map_from_vehicle,
              const std::optional<Matrix3d>& covariance = std::nullopt);
 
@@ -66,6 +67,7 @@ class Localizer {
  private:
   // The page: localizer.cpp.
   const Estimate& turn(const LaserScan& scan, const std::optional<Pose2>& odom_from_vehicle);
+  static bool is_usable(const LaserScan& scan);
   const Estimate& skip(double stamp);
   bool is_repeated(const LaserScan& scan, const std::optional<Pose2>& odom_from_vehicle);
   void find_by_features();
@@ -73,7 +75,9 @@ class Localizer {
   // The stages: stages.cpp, and all_points.cpp for `refine_pose`.
   void predict_pose(double stamp, const std::optional<Pose2>& odom_from_vehicle);
   void deskew_scan(const LaserScan& scan);
-  SweepPath sweep_path(const Twist2& twist, const LaserScan& scan) const;
+  SweepPath sweep_path(const SweepMotion& motion, const LaserScan& scan) const;
+  void dead_reckon_by(const Pose2& move, const OdometryNoise& noise);
+  void wait(bool knows_turn);
   bool wants_features() const;
   void forget_features();
   void predict_features();
@@ -90,8 +94,9 @@ class Localizer {
   PoseWithCovariance vehicle_by_features() const;
   const ScanFit& refine_from(const RefinementInput& input, const PoseWithCovariance& start);
   PoseWithCovariance loose(const PoseWithCovariance& prediction) const;
-  PoseWithCovariance pose_of(const ScanFit& fit, const PoseWithCovariance& prior) const;
+  void add_rival(const ScanFit& fit, double lead);
   ScanFit refine_rival(const RefinementInput& input);
+  PoseObservation observation_of(const ScanFit& fit) const;
   bool has_lost_direction(const ScanFit& fit) const;
   bool is_poor(const ScanFit& fit, const PoseWithCovariance& prediction) const;
   void search(const RefinementInput& input, const PoseWithCovariance& prediction);
@@ -103,7 +108,7 @@ class Localizer {
 
   /// Another pose that may be the true one, carried along until the scans have decided.
   struct Rival {
-    PoseWithCovariance at;
+    PoseTracker tracker;
     double lead = 0.0;   ///< of the estimate over the rival, log of the odds
     double way_m = 0.0;  ///< since they parted
   };
@@ -134,6 +139,8 @@ class Localizer {
   ScannerModel scanner_;
   bool uses_features_ = false;
   bool believed_ = false;
+  bool contributed_ = false;  // the scan corrected dead reckoning
+  bool jumped_ = false;       // the clock, before this scan
   bool ambiguous_ = false;
 
   Deskewer deskewer_;

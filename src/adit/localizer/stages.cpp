@@ -16,33 +16,40 @@ void Localizer::predict_pose(double stamp, const std::optional<Pose2>& odom_from
   way_m_ = 0.0;
   const std::optional<Pose2> gyro = gyro_.at(stamp, options.max_age_s);
   const bool has_turn = gyro && last_gyro_;
-  if (last_odometry_) {
-    Pose2 move = odom_from_vehicle ? inverse(*last_odometry_) * *odom_from_vehicle : Pose2{};
-    way_m_ = move.translation().norm();
-    OdometryNoise noise = settings_.odometry;
-    if (has_turn) {
-      move.theta = angle_between(*last_gyro_, gyro->theta);
-      noise.rotation_sigma_rad_per_m = 0.0;
-      noise.rotation_sigma_ratio = 0.0;
-      noise.rotation_floor_rad = options.gyro_sigma_rad;
-    }
-    tracker_.predict(move, noise, settings_.tracking);
-    if (rival_) {
-      rival_->at = dead_reckon(rival_->at, move, noise);
-      rival_->way_m += way_m_;
-    }
+  const bool has_move = odom_from_vehicle && last_odometry_;
+  Pose2 move = has_move ? inverse(*last_odometry_) * *odom_from_vehicle : Pose2{};
+  OdometryNoise noise = settings_.odometry;
+  if (has_turn) {
+    move.theta = angle_between(*last_gyro_, gyro->theta);
+    noise.rotation_sigma_rad_per_m = 0.0;
+    noise.rotation_sigma_ratio = 0.0;
+    noise.rotation_floor_rad = options.gyro_sigma_rad;
   }
-  if (!odom_from_vehicle) {
-    const double seconds = std::min(std::abs(stamps_.step_s()), options.longest_unknown_s);
-    const double turn_rate = has_turn ? 0.0 : options.unknown_turn_rate_rad_per_s;
-    tracker_.blur(seconds * options.unknown_speed_m_per_s, seconds * turn_rate);
-  }
+  if (has_move || has_turn) dead_reckon_by(move, noise);
+  if (!has_move) wait(has_turn);
   predicted_ = tracker_.estimate();
-  if (odom_from_vehicle) {
-    odometry_.add({stamp, *odom_from_vehicle});
-    last_odometry_ = odom_from_vehicle;
-  }
+  // Without odometry the scan moves the pose, and what the wheels said before is of no use.
+  last_odometry_ = odom_from_vehicle;
   last_gyro_ = gyro ? std::optional<double>(gyro->theta) : std::nullopt;
+}
+
+void Localizer::dead_reckon_by(const Pose2& move, const OdometryNoise& noise) {
+  way_m_ = move.translation().norm();
+  tracker_.predict(move, noise, settings_.tracking);
+  if (!rival_) return;
+  rival_->tracker.predict(move, noise, settings_.tracking);
+  rival_->way_m += way_m_;
+}
+
+/// Time passes and nobody says how the vehicle moved.
+void Localizer::wait(bool knows_turn) {
+  const LocalizerOptions& options = settings_.localizer;
+  const double seconds = jumped_ ? options.longest_unknown_s
+                                 : std::min(std::abs(stamps_.step_s()), options.longest_unknown_s);
+  const double metres = seconds * options.unknown_speed_m_per_s;
+  const double radians = knows_turn ? 0.0 : seconds * options.unknown_turn_rate_rad_per_s;
+  tracker_.blur(metres, radians);
+  if (rival_) rival_->tracker.blur(metres, radians);
 }
 
 /// The scan as it would have been taken at its stamp, by the odometry's motion during the sweep.
@@ -57,7 +64,7 @@ void Localizer::deskew_scan(const LaserScan& scan) {
   if (!(scanner_.sweep_s > 0.0)) return;
   const SweepMotion motion =
       sweep_motion(odometry_, scan.stamp, scanner_, settings_.odometry, settings_.motion);
-  motion_ = SweepPrior{sweep_path(motion.twist, scan), motion.covariance};
+  motion_ = SweepPrior{sweep_path(motion, scan), motion.covariance};
   deskewer_.deskew(scan, scanner_, motion.twist, settings_.deskew, deskewed_);
   still_ = &deskewed_;
 }
@@ -75,12 +82,13 @@ bool Localizer::wants_features() const {
 }
 
 /// The vehicle's way during the sweep as the odometry has it, or a steady motion where it has none.
-SweepPath Localizer::sweep_path(const Twist2& twist, const LaserScan& scan) const {
+SweepPath Localizer::sweep_path(const SweepMotion& motion, const LaserScan& scan) const {
   const std::size_t beams = scan.ranges.size();
-  SweepPath path = steady_path(twist, sweep_timing(scanner_, beams), beams);
+  SweepPath path = steady_path(motion.twist, sweep_timing(scanner_, beams), beams);
   const double spacing = path.span_s / static_cast<double>(SweepPath::kSteps);
   const std::optional<Pose2> at_stamp = odometry_.at(scan.stamp, 0.0);
-  if (!at_stamp || !odometry_.covers(scan.stamp + path.begin_s, path.span_s, 0.25 * path.span_s)) {
+  if (!motion.known || !at_stamp ||
+      !odometry_.covers(scan.stamp + path.begin_s, path.span_s, 0.25 * path.span_s)) {
     return path;
   }
   for (std::size_t k = 0; k < path.stamp_from_vehicle.size(); ++k) {
@@ -92,6 +100,7 @@ SweepPath Localizer::sweep_path(const Twist2& twist, const LaserScan& scan) cons
 
 void Localizer::forget_features() {
   uses_features_ = false;
+  model_.clear();
   match_ = MatchResult{};
   fit_ = FeatureFit{};
   timings_ = Timings{};
@@ -168,13 +177,13 @@ PoseWithCovariance Localizer::vehicle_by_features() const {
 
 /// The estimate, from scan and dead reckoning, if the scan explains itself there.
 void Localizer::track_pose() {
+  const Stopwatch watch(timings_.tracking);
   if (!uses_points()) {
-    believed_ = features_are_believable();
+    believed_ = contributed_ = features_are_believable();
     if (believed_) tracker_.start(vehicle_by_features());
     return;
   }
-  const PoseObservation fix{scan_fit_.pose, scan_fit_.score, scan_fit_.information,
-                            scan_fit_.white_information};
+  const PoseObservation fix = observation_of(scan_fit_);
   const double gate = settings_.tracking.gate_chi_square;
   FitQuality quality = quality_of(scan_fit_);
   quality.agrees = tracker_.chi_square(fix) < gate;
@@ -183,8 +192,9 @@ void Localizer::track_pose() {
   const bool helps = quality.converged && quality.agrees &&
                      quality.evidence_ratio > settings_.status.used_evidence_ratio;
   quality.agrees = true;  // what is not trusted for its disagreement may still be the truth
-  if (!helps && !explains(quality, settings_.status)) return;
-  const PoseWithCovariance before = tracker_.estimate();
+  contributed_ = helps || explains(quality, settings_.status);
+  if (!contributed_) return;
+  const PoseTracker before = tracker_;
   const double chi_square = tracker_.update(fix, settings_.tracking);
   if (chi_square > gate && !rival_) rival_ = Rival{before, 0.0, 0.0};
   if (!believed_) return;
@@ -217,12 +227,12 @@ void Localizer::judge(double stamp) {
   estimate_.pose = tracker_.estimate().pose;
   estimate_.covariance = tracker_.estimate().covariance;
   if (!uses_points()) estimate_.covariance += shared_map_error();
-  estimate_.dead_reckoned = !believed_;
+  estimate_.dead_reckoned = !contributed_;
   if (!believed_) return;
   estimate_.status = Status::ok;
   estimate_.chi_square = fit_.chi_square;
   estimate_.degrees_of_freedom = fit_.degrees_of_freedom;
-  if (uses_features_) estimate_.pairs = estimator_.pairs_used();
+  if (uses_features_ && features_are_believable()) estimate_.pairs = estimator_.pairs_used();
   if (!uses_points()) return;
   estimate_.chi_square = scan_fit_.chi_square;
   estimate_.degrees_of_freedom = static_cast<int>(scan_fit_.counts.wall) - 3;
@@ -245,8 +255,10 @@ void Localizer::judge(double stamp) {
   const double own = radius_of(estimate_.covariance, settings_.protection.risk);
   if (displaced > 0.0) estimate_.protection_m = std::max(estimate_.protection_m, displaced + own);
   if (!rival_) return;
-  const double apart = (rival_->at.pose.translation() - estimate_.pose.translation()).norm();
-  const double of_rival = radius_of(rival_->at.covariance, settings_.protection.risk);
+  const double apart =
+      (rival_->tracker.estimate().pose.translation() - estimate_.pose.translation()).norm();
+  const double of_rival =
+      radius_of(rival_->tracker.estimate().covariance, settings_.protection.risk);
   estimate_.protection_m = std::max(estimate_.protection_m, apart + of_rival);
 }
 

@@ -13,8 +13,10 @@ struct Timings {
   double estimation = 0.0;
   double refinement = 0.0;
   double search = 0.0;
+  double tracking = 0.0;
   double total() const {
-    return deskew + prediction + extraction + matching + estimation + refinement + search;
+    return deskew + prediction + extraction + matching + estimation + refinement + search +
+           tracking;
   }
 };
 

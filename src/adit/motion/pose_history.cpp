@@ -38,6 +38,11 @@ std::optional<Pose2> PoseHistory::at(double stamp, double max_age_s) const {
   return interpolate(before.pose, after->pose, fraction);
 }
 
+void PoseHistory::keep_near(double stamp, double span_s) {
+  std::erase_if(poses_,
+                [&](const StampedPose& pose) { return !(std::abs(pose.stamp - stamp) <= span_s); });
+}
+
 bool PoseHistory::covers(double stamp, double span_s, double gap_s) const {
   const double end = stamp + span_s;
   auto next = std::upper_bound(poses_.begin(), poses_.end(), stamp,

@@ -18,6 +18,8 @@ class PoseHistory {
 
   void add(const StampedPose& pose);
   void clear() { poses_.clear(); }
+  /// Keeps only the poses whose stamps are no farther from this one.
+  void keep_near(double stamp, double span_s);
   bool empty() const { return poses_.empty(); }
   std::size_t size() const { return poses_.size(); }
   /// In order of time.

@@ -44,8 +44,11 @@ void BeamResiduals::set_scan(const LaserScan& scan, const ScannerModel& scanner)
   ranges_.resize(count);
   walls_.resize(count);
   beams_.reserve(count);
-  if (scan.bearings.empty() && directions_.size() == count &&
-      first_bearing_ == scan.first_bearing && bearing_step_ == scan.bearing_step) {
+  const bool even = scan.bearings.empty();
+  const bool known = even && evenly_spaced_;
+  evenly_spaced_ = even;
+  if (known && directions_.size() == count && first_bearing_ == scan.first_bearing &&
+      bearing_step_ == scan.bearing_step) {
     return;
   }
   first_bearing_ = scan.first_bearing;
@@ -64,13 +67,13 @@ double BeamResiduals::longest_return() const {
 }
 
 bool BeamResiduals::is_return(std::size_t beam) const {
-  return scan_->has_return(beam) && scan_->ranges[beam] < max_range_ &&
-         scan_->ranges[beam] >= min_range_;
+  const double range = scan_->ranges[beam];  // not-a-number is no return
+  return range > 0.0 && range >= min_range_ && range < max_range_;
 }
 
 Pose2 BeamResiduals::laser_at(const Pose2& map_from_vehicle, const SweepPath& path,
                               const SweepCorrection& correction, double tau) const {
-  return map_from_vehicle * path.at(tau) * correction.at(tau) * scan_->vehicle_from_laser;
+  return map_from_vehicle * correction.at(tau) * path.at(tau) * scan_->vehicle_from_laser;
 }
 
 std::size_t BeamResiduals::station_count(const SweepPath& path, double spacing) const {
@@ -132,14 +135,28 @@ const WallLine& BeamResiduals::wall_met(const WallLine& in_the_way, const Vector
   return *best;
 }
 
+void BeamResiduals::look_up_walls(const Station& station, std::span<double> ranges,
+                                  std::span<int> walls) const {
+  const double turn_per_beam = station.turn_rate * timing_.step_s;
+  const auto bearing = [&](std::size_t i) {
+    return station.laser.theta + scan_->bearing(i) +
+           station.turn_rate * (timing_.at(i) - station.tau);
+  };
+  if (evenly_spaced_) {
+    visibility_.ranges(bearing(station.begin), bearing_step_ + turn_per_beam, ranges, walls);
+    return;
+  }
+  for (std::size_t k = 0; k < ranges.size(); ++k) {
+    visibility_.ranges(bearing(station.begin + k), 1.0, ranges.subspan(k, 1), walls.subspan(k, 1));
+  }
+}
+
 void BeamResiduals::look_from(const LineMap& map, const Station& station, const Vector2d& vehicle,
                               double least_cosine, std::size_t stride) {
   const std::size_t count = station.end - station.begin;
   const RigidTransform map_from_laser(station.laser);
   const Vector2d centre = station.laser.translation();
   const bool moves = timing_.step_s != 0.0;
-  const double turn_per_beam = station.turn_rate * timing_.step_s;
-  const double first_turn = station.turn_rate * (timing_.at(station.begin) - station.tau);
   const std::span<double> ranges(ranges_.data(), count);
   const std::span<int> walls(walls_.data(), count);
   if (!(&map == swept_map_ && (centre - swept_from_).norm() <= kSamePlace)) {
@@ -147,8 +164,7 @@ void BeamResiduals::look_from(const LineMap& map, const Station& station, const 
     swept_map_ = &map;
     swept_from_ = centre;
   }
-  visibility_.ranges(station.laser.theta + scan_->bearing(station.begin) + first_turn,
-                     bearing_step_ + turn_per_beam, ranges, walls);
+  look_up_walls(station, ranges, walls);
   WallLine wall;
   for (std::size_t k = 0; k < count; k += stride) {
     const std::size_t i = station.begin + k;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "adit/geometry/pose2.hpp"
@@ -17,15 +18,15 @@ namespace adit {
 
 /// One beam against the wall that the map has in its way.
 struct BeamResidual {
-  double residual = 0.0;  ///< measured minus predicted range (m)
-  Vector3d gradient;      ///< of the predicted range, over the vehicle's pose
-  double stretch = 0.0;   ///< range per metre that the wall lies off: 1 / (n . d)
-  double range = 0.0;     ///< predicted (m)
-  double tau = 0.0;       ///< time from the stamp (s)
-  Vector2d normal;        ///< of the wall, towards the scanner
-  Vector2d direction;     ///< of the beam (map axes)
-  Vector2d hit;           ///< where the beam meets the wall (map axes, m)
-  int beam = -1;          ///< in the scan
+  double residual = 0.0;                  ///< measured minus predicted range (m)
+  Vector3d gradient = Vector3d::Zero();   ///< of the predicted range, over the vehicle's pose
+  double stretch = 0.0;                   ///< range per metre that the wall lies off: 1 / (n . d)
+  double range = 0.0;                     ///< predicted (m)
+  double tau = 0.0;                       ///< time from the stamp (s)
+  Vector2d normal = Vector2d::Zero();     ///< of the wall, towards the scanner
+  Vector2d direction = Vector2d::Zero();  ///< of the beam (map axes)
+  Vector2d hit = Vector2d::Zero();        ///< where the beam meets the wall (map axes, m)
+  int beam = -1;                          ///< in the scan
   int wall = -1;
   bool has_return = false;
 };
@@ -65,6 +66,7 @@ class BeamResiduals {
   std::size_t station_count(const SweepPath& path, double spacing) const;
   void look_from(const LineMap& map, const Station& station, const Vector2d& vehicle,
                  double least_cosine, std::size_t stride);
+  void look_up_walls(const Station& station, std::span<double> ranges, std::span<int> walls) const;
   const WallLine& wall_met(const WallLine& in_the_way, const Vector2d& end,
                            const Vector2d& direction, double least);
 
@@ -81,6 +83,7 @@ class BeamResiduals {
   SweepTiming timing_;
   double first_bearing_ = 0.0;
   double bearing_step_ = 0.0;
+  bool evenly_spaced_ = false;  // the fan whose directions are kept
   std::vector<Vector2d> directions_;
   Visibility visibility_;
   WallNeighbours neighbours_;

@@ -136,8 +136,8 @@ TEST(BeamResiduals, UnevenBearingsAreThoseOfTheScan) {
   LaserScan scan = star(5.0);
   residuals.set_scan(scan, fine_scanner());
   residuals.compute(map, {}, {}, {}, {});
-  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
-    scan.bearings.push_back(scan.bearing(i) + radians(i % 2 == 0 ? 1.0 : -2.0));
+  for (int i = 0; i < 36; ++i) {
+    scan.bearings.push_back(radians(10.0 * i + (i % 2 == 0 ? 1.0 : -2.0)));
   }
   residuals.set_scan(scan, fine_scanner());
   residuals.compute(map, {}, {}, {}, {});

@@ -14,8 +14,8 @@ struct BeamCounts {
   double before = 0.0;     ///< something before it
   double behind = 0.0;     ///< something behind it: the wall is not there
   double no_return = 0.0;  ///< nothing that came back
-  double explained() const { return before + wall; }
-  double returns() const { return wall + before + behind; }
+  double unmapped = 0.0;   ///< something where the map has nothing at all
+  double returns() const { return wall + before + behind + unmapped; }
 };
 
 /// Which beams met the wall of the map, as probabilities.
@@ -25,7 +25,7 @@ struct BeamCounts {
 /// and backward pass of a hidden Markov model). A beam without return says nothing.
 class BeamClassifier {
  public:
-  /// `variances`: of each residual if it met the wall, everything counted.
+  /// `variances`: of each residual if it met the wall.
   void classify(std::span<const BeamResidual> beams, std::span<const double> variances,
                 const RefinementOptions& options);
 

@@ -16,6 +16,8 @@ constexpr double kRange = 8.0;
 
 BeamResidual beam(double residual, double range = kRange, bool has_return = true) {
   BeamResidual result;
+  result.gradient.setZero();
+  result.normal = result.direction = result.hit = Vector2d::Zero();
   result.residual = residual;
   result.range = range;
   result.has_return = has_return;
@@ -112,7 +114,6 @@ TEST(BeamClassifier, ARunOfShortBeamsStandsBeforeTheWall) {
   EXPECT_NEAR(found.classifier.counts().before, 10.0, 0.5);
   EXPECT_NEAR(found.classifier.counts().behind, 0.0, 0.5);
   EXPECT_NEAR(found.classifier.counts().wall, 50.0, 0.5);
-  EXPECT_NEAR(found.classifier.counts().explained(), 60.0, 0.5);
 }
 
 TEST(BeamClassifier, NeighboursSpeakForABeam) {

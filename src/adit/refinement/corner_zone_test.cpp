@@ -21,6 +21,8 @@ RefinementOptions options() {
 /// At a point of the only wall of a map that this point lies on.
 double sigma_at(const LineMap& map, const Vector2d& hit, const MapError& error = kError) {
   BeamResidual beam;
+  beam.gradient.setZero();
+  beam.normal = beam.direction = Vector2d::Zero();
   beam.hit = hit;
   for (std::size_t i = 0; i < map.walls().size(); ++i) {
     if (distance(map.walls()[i].segment, hit) < 1e-9) beam.wall = static_cast<int>(i);

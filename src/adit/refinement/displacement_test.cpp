@@ -40,6 +40,7 @@ void add_stretch(double before, double from_y, double to_y, Beams& all, double r
     const double y = x * std::tan(bearing);
     if (y < from_y || y > to_y) continue;
     BeamResidual beam;
+    beam.gradient.setZero();
     beam.wall = 3;
     beam.has_return = true;
     beam.normal = -Vector2d::UnitX();

@@ -43,6 +43,7 @@ void add_wall(const Pose2& map_from_wall, double metres, const MapError& truth, 
     BeamResidual beam;
     beam.hit = map_from_wall * Vector2d(kSpacing * i, 0.0);
     beam.normal = perpendicular(unit_vector(map_from_wall.theta));
+    beam.direction = -beam.normal;
     beam.stretch = -1.0 / (0.6 + 0.4 * std::cos(0.01 * i));
     beam.range = 6.0;
     beam.has_return = true;

@@ -11,10 +11,6 @@
 namespace adit {
 namespace {
 
-Vector3d difference(const Pose2& from, const Pose2& to) {
-  return {to.x - from.x, to.y - from.y, angle_between(from.theta, to.theta)};
-}
-
 PoseWithCovariance around(const Pose2& pose, double sigma_x, double sigma_y, double sigma_rad) {
   return {pose, Vector3d(sigma_x, sigma_y, sigma_rad).cwiseAbs2().asDiagonal()};
 }

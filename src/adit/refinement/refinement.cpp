@@ -11,6 +11,9 @@
 namespace adit {
 namespace {
 
+// No scanner is better than a millimetre, whatever a configuration says (m²).
+constexpr double kLeastVariance = 1e-6;
+
 // So many beams tell poses apart that lie a hand's breadth from each other.
 constexpr std::size_t kEnoughBeams = 100;
 
@@ -30,10 +33,6 @@ constexpr double kAcceptedLength = 2.0;
 
 // Less likely than this to have met the wall: the beam is left out.
 constexpr double kLeastProbability = 0.01;
-
-Vector3d difference(const Pose2& from, const Pose2& to) {
-  return {to.x - from.x, to.y - from.y, angle_between(from.theta, to.theta)};
-}
 
 /// The gradient over the pose and, on the move, over the correction of the sweep's motion.
 template <int N>
@@ -108,6 +107,7 @@ const ScanFit& Refiner::refine(const RefinementInput& input, const PoseWithCovar
     fit_.converged = !is_coarse && is_last(length, options);
   }
   fit_.counts = classifier_.counts();
+  fit_.counts.unmapped = residuals_.unmapped();
   fit_.log_evidence = classifier_.log_evidence();
   fit_.expected_log_evidence = classifier_.expected_log_evidence();
   return fit_;
@@ -145,8 +145,8 @@ void Refiner::weigh(const RefinementInput& input, const Matrix3d& spread,
   double share = 0.0;
   for (std::size_t k = 0; k < beams.size(); ++k) {
     const BeamResidual& beam = beams[k];
-    noise_[k] =
-        beam_variance(input.scanner, beam.range, 1.0 / beam.stretch, map_error.roughness_sigma_m);
+    noise_[k] = kLeastVariance + beam_variance(input.scanner, beam.range, 1.0 / beam.stretch,
+                                               map_error.roughness_sigma_m);
     const double known = noise_[k] + beam.stretch * beam.stretch * offset;
     const double doubt = beam.gradient.dot(spread * beam.gradient);
     spread_[k] = known + doubt;

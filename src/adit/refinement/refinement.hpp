@@ -74,7 +74,6 @@ class Refiner {
                     std::span<const Pose2> poses, const Matrix3d& spread,
                     const RefinementOptions& options);
 
-  const ScanFit& fit() const { return fit_; }
   /// The beams of the last step and the probability of each to have met the map's wall.
   const std::vector<BeamResidual>& beams() const { return residuals_.beams(); }
   std::span<const double> on_wall() const { return classifier_.on_wall(); }
@@ -94,7 +93,7 @@ class Refiner {
   BeamResiduals residuals_;
   BeamClassifier classifier_;
   std::vector<double> noise_;   // variance that a beam shares with no other (m²)
-  std::vector<double> spread_;  // variance of a residual, all counted (m²)
+  std::vector<double> spread_;  // variance of a residual; corners count as sharp (m²)
   double last_share_ = 0.0;
   double spread_share_ = 0.0;  // of the doubt about the pose in that, on average
   std::vector<WallShare> shares_;

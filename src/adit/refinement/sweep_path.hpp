@@ -44,8 +44,9 @@ inline SweepPath steady_path(const Twist2& twist, const SweepTiming& timing, std
   return path;
 }
 
-/// What dead reckoning missed of a sweep's motion: two steady motions on top of it, one for each
-/// half of the sweep (odometry errs like a random walk, which one steady motion cannot follow).
+/// What dead reckoning missed of a sweep's motion: two steady motions, seen from the vehicle at the
+/// stamp, one for each half of the sweep (odometry errs like a random walk, which one steady motion
+/// cannot follow).
 struct SweepCorrection {
   static constexpr std::size_t kHalves = 2;
 
@@ -62,7 +63,9 @@ struct SweepCorrection {
   }
   Pose2 at(double seconds) const {
     const std::array<double, kHalves> share = shares(seconds);
-    return moved(halves[0], share[0]) * moved(halves[1], share[1]);
+    const Pose2 first = moved(halves[0], share[0]);
+    const Pose2 second = moved(halves[1], share[1]);
+    return middle_s < 0.0 ? second * first : first * second;  // from the stamp outwards
   }
 };
 

@@ -68,9 +68,8 @@ void PoseTracker::predict(const Pose2& move, const OdometryNoise& noise,
 }
 
 Vector3d PoseTracker::innovation_of(const PoseObservation& observation) const {
-  const Vector3d apart(observation.pose.x - estimate_.pose.x, observation.pose.y - estimate_.pose.y,
-                       angle_between(estimate_.pose.theta, observation.pose.theta));
-  return apart + fix_covariance(observation.information) * observation.score;
+  return difference(estimate_.pose, observation.pose) +
+         fix_covariance(observation.information) * observation.score;
 }
 
 double PoseTracker::chi_square(const PoseObservation& observation) const {

@@ -40,10 +40,6 @@ PoseObservation fix(const Pose2& pose, const Matrix3d& covariance, const Matrix3
   return observation;
 }
 
-Vector3d difference(const Pose2& from, const Pose2& to) {
-  return {to.x - from.x, to.y - from.y, angle_between(from.theta, to.theta)};
-}
-
 double least_eigenvalue(const Matrix3d& symmetric) {
   return Eigen::SelfAdjointEigenSolver<Matrix3d>(symmetric).eigenvalues()[0];
 }

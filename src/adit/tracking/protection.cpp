@@ -45,10 +45,8 @@ double protection_level(const PoseWithCovariance& estimate, const PoseWithCovari
     all.information += wall.information;
     all.score += wall.score;
   }
-  const Vector3d to_prediction(prediction.pose.x - fitted_at.x, prediction.pose.y - fitted_at.y,
-                               angle_between(fitted_at.theta, prediction.pose.theta));
-  const Vector3d to_estimate(estimate.pose.x - fitted_at.x, estimate.pose.y - fitted_at.y,
-                             angle_between(fitted_at.theta, estimate.pose.theta));
+  const Vector3d to_prediction = difference(fitted_at, prediction.pose);
+  const Vector3d to_estimate = difference(fitted_at, estimate.pose);
   for (const WallEvidence& wall : walls) {
     const Matrix3d information = all.information - wall.information;
     const Vector3d score = all.score - wall.score + loose_prior * to_prediction;

@@ -5,28 +5,29 @@
 namespace adit {
 
 StampOrder StampWatch::next(double stamp, int scanner, const StampOptions& options) {
-  const bool same_scanner = scanner == last_scanner_;
-  last_scanner_ = scanner;
+  std::optional<double>& own = last_of_[static_cast<std::size_t>(scanner) % kScanners];
+  const bool repeated = own == stamp;
+  own = stamp;
   const double step = last_ ? stamp - *last_ : 0.0;
   const bool is_first = !last_;
   last_ = stamp;
   step_s_ = 0.0;
   if (is_first) return StampOrder::first;
-  const StampOrder order = classify(step, same_scanner, options);
+  const StampOrder order = classify(step, repeated, options);
   if (order != StampOrder::jump) step_s_ = step;
   return order;
 }
 
-StampOrder StampWatch::classify(double step, bool same_scanner, const StampOptions& options) {
+StampOrder StampWatch::classify(double step, bool repeated, const StampOptions& options) {
   if (!(std::abs(step) <= options.jump_s)) {
     ++counts_.jumps;
     return StampOrder::jump;
   }
-  if (step == 0.0) {
-    if (!same_scanner) return StampOrder::in_order;
+  if (repeated) {
     ++counts_.duplicates;
     return StampOrder::duplicate;
   }
+  if (step == 0.0) return StampOrder::in_order;
   if (step < 0.0) {
     ++counts_.late;
     return StampOrder::late;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 
 namespace adit {
@@ -46,10 +48,12 @@ class StampWatch {
   const StampCounts& counts() const { return counts_; }
 
  private:
-  StampOrder classify(double step, bool same_scanner, const StampOptions& options);
+  static constexpr std::size_t kScanners = 8;  // more share their places
+
+  StampOrder classify(double step, bool repeated, const StampOptions& options);
 
   std::optional<double> last_;
-  int last_scanner_ = 0;
+  std::array<std::optional<double>, kScanners> last_of_;  // each scanner's own
   double step_s_ = 0.0;
   StampCounts counts_;
 };

@@ -122,15 +122,39 @@ TEST(Trust, ANewContradictionBeginsTheWayAnew) {
   EXPECT_FALSE(trust.next(good(), 0.8 * options.regain_way_m, options));
 }
 
-TEST(Trust, WhatExplainsJustEnoughDoesNotRegain) {
+/// Whether scans of which so much is explained bring the trust back.
+bool regains(Trust trust, double evidence_ratio, const StatusOptions& options) {
+  FitQuality quality = good();
+  quality.evidence_ratio = evidence_ratio;
+  trust.next(bad(), 1.0, options);
+  return trust.next(quality, 2.0 * options.regain_way_m, options);
+}
+
+TEST(Trust, AsksForAsMuchAsIsUsualHere) {
   const StatusOptions options;
-  FitQuality fair = good();
-  fair.evidence_ratio = options.regain_evidence_ratio - 0.01;
+  for (const double usual : {0.7, 0.9}) {
+    FitQuality scan = good();
+    scan.evidence_ratio = usual;
+    Trust trust;
+    for (int i = 0; i < 10; ++i) EXPECT_TRUE(trust.next(scan, 1.0, options));
+    EXPECT_FALSE(regains(trust, usual - options.regain_slack - 0.01, options));
+    EXPECT_TRUE(regains(trust, usual - options.regain_slack + 0.01, options));
+  }
+}
+
+TEST(Trust, AsksForTheStatedWhereNothingIsUsualYet) {
+  const StatusOptions options;
+  EXPECT_FALSE(regains({}, options.regain_evidence_ratio - 0.01, options));
+  EXPECT_TRUE(regains({}, options.regain_evidence_ratio + 0.01, options));
+}
+
+TEST(Trust, AResetForgets) {
   Trust trust;
-  EXPECT_TRUE(trust.next(fair, 1.0, options));
-  EXPECT_FALSE(trust.next(bad(), 1.0, options));
-  EXPECT_FALSE(trust.next(fair, 10.0 * options.regain_way_m, options));
-  EXPECT_NEAR(way_to_regain(trust, good(), 0.25), options.regain_way_m, 0.26);
+  trust.next(bad(), 1.0, {});
+  EXPECT_TRUE(trust.contradicted());
+  trust.reset();
+  EXPECT_FALSE(trust.contradicted());
+  EXPECT_TRUE(trust.next(good(), 0.0, {}));
 }
 
 TEST(Trust, ABlindScannerContradictsNothing) {
