@@ -186,6 +186,8 @@ Json timings_report(const std::vector<Timings>& timings) {
   add("matching", [](const Timings& t) { return t.matching; });
   add("estimation", [](const Timings& t) { return t.estimation; });
   add("refinement", [](const Timings& t) { return t.refinement; });
+  add("search", [](const Timings& t) { return t.search; });
+  add("tracking", [](const Timings& t) { return t.tracking; });
   add("cycle", [](const Timings& t) { return t.total(); });
   return json;
 }

@@ -145,8 +145,9 @@ void Refiner::weigh(const RefinementInput& input, const Matrix3d& spread,
   double share = 0.0;
   for (std::size_t k = 0; k < beams.size(); ++k) {
     const BeamResidual& beam = beams[k];
-    noise_[k] = kLeastVariance + beam_variance(input.scanner, beam.range, 1.0 / beam.stretch,
-                                               map_error.roughness_sigma_m);
+    noise_[k] = std::max(
+        kLeastVariance,
+        beam_variance(input.scanner, beam.range, 1.0 / beam.stretch, map_error.roughness_sigma_m));
     const double known = noise_[k] + beam.stretch * beam.stretch * offset;
     const double doubt = beam.gradient.dot(spread * beam.gradient);
     spread_[k] = known + doubt;

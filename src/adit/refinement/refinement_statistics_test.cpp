@@ -240,7 +240,7 @@ SweepPrior odometry_of(double error_ratio, const ScannerModel& model, Random& ra
 double path_error(const SweepPath& path, const SweepCorrection& correction) {
   double sum = 0.0;
   for (const double tau : {path.begin_s, path.begin_s + path.span_s}) {
-    const Pose2 off = inverse(moved(kDrive, tau)) * path.at(tau) * correction.at(tau);
+    const Pose2 off = inverse(moved(kDrive, tau)) * correction.at(tau) * path.at(tau);
     sum += 0.5 * off.vector().squaredNorm();
   }
   return sum;
