@@ -8,7 +8,8 @@ namespace {
 
 constexpr std::uint64_t kStraightWalls = 21;  // stream of the seed
 
-/// The roughness that docs/benchmarks.md states for panel and drift: RMS 0.15 m, corner radius 0.7 m.
+/// The roughness that docs/benchmarks.md states for panel and drift: RMS 0.15 m, corner radius 0.7
+/// m.
 DriftOptions evenly_rough_drift() {
   DriftOptions options;
   options.walls = {};

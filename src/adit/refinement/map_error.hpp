@@ -29,7 +29,7 @@ struct MapError {
 
 /// What is believed of the map before the first scan, and how fast it is learnt.
 struct MapErrorOptions {
-  double sigma_m = 0.05;
+  double sigma_m = 0.10;
   bool is_stated = true;  ///< where it is not, the first scans choose; see `FirstMapError`
   double length_m = 1.5;
   double roughness_share = 0.02;

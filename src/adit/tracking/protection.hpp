@@ -15,7 +15,7 @@ struct WallEvidence {
 /// How the protection level is made.
 struct ProtectionOptions {
   double risk = 1e-3;
-  double margin = 1.15;
+  double margin = 1.25;
   double loose_prior = 9.0;
 
   template <class Self, class Field>
