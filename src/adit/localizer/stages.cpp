@@ -186,10 +186,11 @@ void Localizer::track_pose() {
   const PoseObservation fix = observation_of(scan_fit_);
   const double gate = settings_.tracking.gate_chi_square;
   FitQuality quality = quality_of(scan_fit_);
-  quality.agrees = tracker_.chi_square(fix) < gate;
+  const double disagreement = tracker_.chi_square(fix);
+  quality.agrees = disagreement < (trust_.is_new() ? gate : settings_.status.disagree_chi_square);
   believed_ = trust_.next(quality, way_m_, settings_.status);
   clear_ = quality.evidence_ratio > settings_.localizer.clear_evidence_ratio;
-  const bool helps = quality.converged && quality.agrees &&
+  const bool helps = quality.converged && disagreement < gate &&
                      quality.evidence_ratio > settings_.status.used_evidence_ratio;
   quality.agrees = true;  // what is not trusted for its disagreement may still be the truth
   contributed_ = helps || explains(quality, settings_.status);
