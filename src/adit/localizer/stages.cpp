@@ -187,7 +187,7 @@ void Localizer::track_pose() {
   const double gate = settings_.tracking.gate_chi_square;
   FitQuality quality = quality_of(scan_fit_);
   const double disagreement = tracker_.chi_square(fix);
-  quality.agrees = disagreement < (trust_.is_new() ? gate : settings_.status.disagree_chi_square);
+  quality.agrees = disagreement < settings_.status.disagree_chi_square;
   believed_ = trust_.next(quality, way_m_, settings_.status);
   clear_ = quality.evidence_ratio > settings_.localizer.clear_evidence_ratio;
   const bool helps = quality.converged && disagreement < gate &&

@@ -39,10 +39,10 @@ class BeamResiduals {
   /// Takes the scan; it must stay alive while the residuals are computed.
   void set_scan(const LaserScan& scan, const ScannerModel& scanner);
 
-  /// Every beam that should meet a wall within range, not flatter than the options allow, in the
-  /// order of the scan. `path` is the motion during the sweep, `correction` what is put on top
-  /// of it. A vehicle on the move sees the map from several stations of its way.
-  /// With a stride only every so many beams.
+  /// Every beam that should meet a wall no more than 2 m beyond the scan's longest return, not
+  /// flatter than the options allow, in the order of the scan. `path` is the motion during the
+  /// sweep, `correction` what is put on top of it. A vehicle on the move sees the map from several
+  /// stations of its way. With a stride only every so many beams.
   void compute(const LineMap& map, const Pose2& map_from_vehicle, const SweepPath& path,
                const SweepCorrection& correction, const RefinementOptions& options,
                std::size_t stride = 1);

@@ -24,7 +24,7 @@ Normal2 position_part(const Matrix3d& covariance) {
 double radius_of(const Matrix3d& covariance, double risk) {
   const Normal2 normal = position_part(covariance);
   // Exact for a circle: sqrt(-2 ln risk). For a line the two-sided quantile, by the tail's leading
-  // terms; between the two the squares of the ratio interpolate to within 2 %.
+  // terms; between the two the squares of the ratio interpolate, up to 4 % too wide.
   const double circle = std::sqrt(-2.0 * std::log(risk));
   double line = circle;
   for (int i = 0; i < 4; ++i) {

@@ -16,7 +16,7 @@ struct StatusOptions {
   double regain_evidence_ratio = 0.75;
   double regain_slack = 0.15;
   double regain_way_m = 5.0;
-  double disagree_chi_square = 60.0;
+  double disagree_chi_square = 16.27;
   double fewest_returns = 20.0;
   double least_wall_ratio = 0.3;
   double most_behind_ratio = 0.5;
@@ -46,10 +46,10 @@ struct StatusOptions {
           "for this ...");
     field("regain_way_m", self.regain_way_m,
           "... for so long a way (m) before the pose is trusted again: mines look like themselves");
-    field(
-        "disagree_chi_square", self.disagree_chi_square,
-        "a fix farther than this from dead reckoning disagrees with it; far beyond chance, because "
-        "wheels slip more than their noise says");
+    field("disagree_chi_square", self.disagree_chi_square,
+          "a fix farther than this from dead reckoning disagrees with it; chi-square of three "
+          "degrees "
+          "of freedom at 1e-3");
     field("fewest_returns", self.fewest_returns,
           "a scan of fewer returns contradicts nothing: the scanner is blind");
     field("least_wall_ratio", self.least_wall_ratio,
@@ -95,8 +95,6 @@ class Trust {
   /// The next scan's fit, and the way (m) since the last scan. True while the pose may be trusted.
   bool next(const FitQuality& quality, double way_m, const StatusOptions& options);
   void reset() { *this = Trust{}; }
-  /// Whether no scan was trusted yet.
-  bool is_new() const { return scans_ == 0.0; }
   /// Whether a scan contradicted the pose and it has not been regained since.
   bool contradicted() const { return contradicted_; }
 
