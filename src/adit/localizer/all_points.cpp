@@ -15,25 +15,17 @@ namespace adit {
 /// All points of the scan against the map, from where the features say or, without them, from the
 /// prediction.
 void Localizer::refine_pose(const LaserScan& scan) {
-  scan_fit_ = ScanFit{};
-  ambiguous_ = false;
   if (!uses_points()) return;
   const RefinementInput input{map_, scan, scanner_, map_error_.error(), motion_};
-  const PoseWithCovariance prediction{predicted_.pose, floored(predicted_.covariance)};
   std::optional<ScanFit> rival_fit;
-  bool is_good = false;
+  PoseWithCovariance start{predicted_.pose, floored(predicted_.covariance)};
   {
     const Stopwatch watch(timings_.refinement);
     if (rival_) rival_fit = refine_rival(input);
-    const bool by_features = uses_features_ && features_are_believable();
-    scan_fit_ = refine_from(input, by_features ? vehicle_by_features() : prediction);
-    is_good = !is_poor(scan_fit_, prediction);
+    if (uses_features_ && features_are_believable()) start = vehicle_by_features();
+    scan_fit_ = refine_from(input, start);
   }
-  if (!is_good && settings_.estimator == Estimator::full && !uses_features_) find_by_features();
-  if (!is_good) {
-    const Stopwatch watch(timings_.search);
-    search(input, prediction);
-  }
+  if (is_poor(scan_fit_)) search(input, start);
   if (rival_fit) weigh_rival(input, *rival_fit);
 }
 
@@ -47,13 +39,13 @@ const ScanFit& Localizer::refine_from(const RefinementInput& input,
   return refiner_.refine(input, loose(predicted_), start, settings_.refinement);
 }
 
-bool Localizer::is_poor(const ScanFit& fit, const PoseWithCovariance& prediction) const {
+bool Localizer::is_poor(const ScanFit& fit) const {
   const SearchOptions& options = settings_.search;
   const FitQuality quality = quality_of(fit);
-  const Vector3d off = difference(prediction.pose, fit.pose);
+  const Vector3d off = difference(predicted_.pose, fit.pose);
   return !quality.converged || quality.evidence_ratio < options.poor_evidence_ratio ||
          quality.behind_ratio > options.poor_behind_ratio || has_lost_direction(fit) ||
-         off.dot(prediction.covariance.inverse() * off) > options.poor_chi_square;
+         off.dot(floored(predicted_.covariance).inverse() * off) > options.poor_chi_square;
 }
 
 /// Whether the scan leaves a direction open that the last one showed: what showed it may be in
@@ -63,14 +55,22 @@ bool Localizer::has_lost_direction(const ScanFit& fit) const {
          open_direction(fix_covariance(fit.information), settings_.status).has_value();
 }
 
-/// The most plausible fit near the prediction: from the features, from the prediction itself, from
-/// the best of a lattice around it. Another that is about as plausible becomes a rival.
-void Localizer::search(const RefinementInput& input, const PoseWithCovariance& prediction) {
-  const PoseLattice lattice(prediction, settings_.search);
+/// The most plausible fit near the prediction: the first one, those from the features and from the
+/// prediction itself, and the one from the best of a lattice around it. Another that is about as
+/// plausible becomes a rival.
+void Localizer::search(const RefinementInput& input, const PoseWithCovariance& first) {
+  const PoseWithCovariance prediction{predicted_.pose, floored(predicted_.covariance)};
   std::array<PoseWithCovariance, 3> starts;
   std::size_t count = 0;
-  if (uses_features_ && features_are_believable()) starts[count++] = vehicle_by_features();
-  starts[count++] = prediction;
+  starts[count++] = first;
+  if (uses_features_ && features_are_believable()) {
+    starts[count++] = prediction;  // the first fit began at the features
+  } else if (settings_.estimator == Estimator::full && !uses_features_) {
+    find_by_features();
+    if (features_are_believable()) starts[count++] = vehicle_by_features();
+  }
+  const Stopwatch watch(timings_.search);
+  const PoseLattice lattice(prediction, settings_.search);
   starts[count++] = {refiner_.most_likely(input, prediction, lattice.poses(), lattice.spread(),
                                           settings_.refinement),
                      lattice.spread()};
@@ -79,7 +79,7 @@ void Localizer::search(const RefinementInput& input, const PoseWithCovariance& p
   std::array<double, 3> scores{};
   std::size_t best = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    fits[i] = refine_from(input, starts[i]);
+    fits[i] = i == 0 ? scan_fit_ : refine_from(input, starts[i]);
     scores[i] = fits[i].converged ? plausibility(fits[i], prediction, shared)
                                   : -std::numeric_limits<double>::infinity();
     if (scores[i] > scores[best]) best = i;
@@ -89,7 +89,8 @@ void Localizer::search(const RefinementInput& input, const PoseWithCovariance& p
     const double gap = scores[best] - scores[i];
     if (gap < settings_.status.rival_gain) add_rival(fits[i], gap);
   }
-  scan_fit_ = refine_from(input, starts[best]);
+  // The refiner's beams and shares are to be those of the fit that is taken: its last one.
+  scan_fit_ = best + 1 == count ? fits[best] : refine_from(input, starts[best]);
 }
 
 /// The rival stays where its own dead reckoning leaves it: the walls that it holds for wrong must

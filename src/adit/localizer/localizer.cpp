@@ -7,6 +7,7 @@ namespace adit {
 /// The paper's cycle, Fig. 1, with what it names as work to come: all points, and tracking.
 const Estimate& Localizer::turn(const LaserScan& scan,
                                 const std::optional<Pose2>& odom_from_vehicle) {
+  begin_turn();
   predict_pose(scan.stamp, odom_from_vehicle);
   deskew_scan(scan);
   if (wants_features()) find_by_features();
@@ -56,11 +57,8 @@ bool Localizer::is_usable(const LaserScan& scan) {
 
 /// Answers a scan that cannot be used from what is believed already.
 const Estimate& Localizer::skip(double stamp) {
+  begin_turn();
   predicted_ = tracker_.estimate();
-  forget_features();
-  scan_fit_ = ScanFit{};
-  believed_ = false;
-  contributed_ = false;
   judge(stamp);
   return estimate_;
 }

@@ -40,7 +40,8 @@ class Localizer {
   void add_gyro(double stamp, double heading);
 
   /// One turn of the cycle, with dead reckoning taken from what was fed, at the scan's stamp; with
-  /// none near it the vehicle is taken to have stood still.
+  /// none near it the pose becomes unsure with the time since the last scan, and a pose that a scan
+  /// has contradicted is not trusted again, for nobody knows the way.
   const Estimate& update(const LaserScan& scan);
 
   /// One turn of the cycle, with the odometry pose that came with the scan. A pose or a mounting
@@ -73,13 +74,13 @@ class Localizer {
   void find_by_features();
 
   // The stages: stages.cpp, and all_points.cpp for `refine_pose`.
+  void begin_turn();
   void predict_pose(double stamp, const std::optional<Pose2>& odom_from_vehicle);
   void deskew_scan(const LaserScan& scan);
   SweepPath sweep_path(const SweepMotion& motion, const LaserScan& scan) const;
   void dead_reckon_by(const Pose2& move, const OdometryNoise& noise);
   void wait(bool knows_turn);
   bool wants_features() const;
-  void forget_features();
   void predict_features();
   void extract_features();
   void match_features();
@@ -88,6 +89,7 @@ class Localizer {
   void track_pose();
   void learn_map_error();
   void judge(double stamp);
+  double protection();
 
   bool uses_points() const { return settings_.estimator != Estimator::features; }
   bool features_are_believable() const;
@@ -98,8 +100,8 @@ class Localizer {
   ScanFit refine_rival(const RefinementInput& input);
   PoseObservation observation_of(const ScanFit& fit) const;
   bool has_lost_direction(const ScanFit& fit) const;
-  bool is_poor(const ScanFit& fit, const PoseWithCovariance& prediction) const;
-  void search(const RefinementInput& input, const PoseWithCovariance& prediction);
+  bool is_poor(const ScanFit& fit) const;
+  void search(const RefinementInput& input, const PoseWithCovariance& first);
   bool reconciled() const;
   void change_places(const RefinementInput& input);
   void weigh_rival(const RefinementInput& input, const ScanFit& rival_fit);

@@ -10,10 +10,21 @@
 
 namespace adit {
 
+/// Forgets what the last turn found.
+void Localizer::begin_turn() {
+  timings_ = Timings{};
+  uses_features_ = believed_ = contributed_ = ambiguous_ = false;
+  model_.clear();
+  match_ = MatchResult{};
+  fit_ = FeatureFit{};
+  scan_fit_ = ScanFit{};
+  way_m_ = 0.0;
+}
+
 /// Dead reckoning from the last estimate: wheels, and the gyro's heading where there is one.
 void Localizer::predict_pose(double stamp, const std::optional<Pose2>& odom_from_vehicle) {
+  const Stopwatch watch(timings_.tracking);
   const LocalizerOptions& options = settings_.localizer;
-  way_m_ = 0.0;
   const std::optional<Pose2> gyro = gyro_.at(stamp, options.max_age_s);
   const bool has_turn = gyro && last_gyro_;
   const bool has_move = odom_from_vehicle && last_odometry_;
@@ -54,7 +65,6 @@ void Localizer::wait(bool knows_turn) {
 
 /// The scan as it would have been taken at its stamp, by the odometry's motion during the sweep.
 void Localizer::deskew_scan(const LaserScan& scan) {
-  forget_features();
   const Stopwatch watch(timings_.deskew);
   scanner_ = settings_.scanner_of(scan);
   vehicle_from_laser_ = scan.vehicle_from_laser;
@@ -98,18 +108,9 @@ SweepPath Localizer::sweep_path(const SweepMotion& motion, const LaserScan& scan
   return path;
 }
 
-void Localizer::forget_features() {
-  uses_features_ = false;
-  model_.clear();
-  match_ = MatchResult{};
-  fit_ = FeatureFit{};
-  timings_ = Timings{};
-}
-
 /// The map's features in sight of the predicted position.
 void Localizer::predict_features() {
   const Stopwatch watch(timings_.prediction);
-  model_.clear();
   const Vector2d observer = predicted_laser_.pose.translation();
   visibility_.sweep(map_, observer, scanner_.no_return_from(still_->max_range));
   adit::predict_features(map_, visibility_, observer, settings_.prediction, model_);
@@ -123,7 +124,6 @@ void Localizer::extract_features() {
 /// Model and sensed features both in the frame of the predicted laser.
 void Localizer::match_features() {
   const Stopwatch watch(timings_.matching);
-  match_ = MatchResult{};
   transform(model_, {0.0, 0.0, -predicted_laser_.pose.theta}, model_in_laser_);
   const MatchingOptions tolerances =
       tolerances_from_prior(settings_.matching, floored(predicted_laser_.covariance));
@@ -132,7 +132,6 @@ void Localizer::match_features() {
 
 void Localizer::estimate_pose() {
   const Stopwatch watch(timings_.estimation);
-  fit_ = FeatureFit{};
   uses_features_ = true;
   const Pose2 start{0.0, 0.0, predicted_laser_.pose.theta};
   const PoseWithCovariance prior{start, floored(predicted_laser_.covariance)};
@@ -186,13 +185,12 @@ void Localizer::track_pose() {
   const PoseObservation fix = observation_of(scan_fit_);
   const double gate = settings_.tracking.gate_chi_square;
   FitQuality quality = quality_of(scan_fit_);
-  const double disagreement = tracker_.chi_square(fix);
-  quality.agrees = disagreement < settings_.status.disagree_chi_square;
-  believed_ = trust_.next(quality, way_m_, settings_.status);
+  quality.agrees = tracker_.chi_square(fix) < gate;
   clear_ = quality.evidence_ratio > settings_.localizer.clear_evidence_ratio;
-  const bool helps = quality.converged && disagreement < gate &&
+  believed_ = trust_.next(quality, way_m_, settings_.status);
+  // What is not trusted may still be the truth: all that explains its scan is taken in.
+  const bool helps = quality.converged && quality.agrees &&
                      quality.evidence_ratio > settings_.status.used_evidence_ratio;
-  quality.agrees = true;  // what is not trusted for its disagreement may still be the truth
   contributed_ = helps || explains(quality, settings_.status);
   if (!contributed_) return;
   const PoseTracker before = tracker_;
@@ -223,6 +221,7 @@ Matrix3d Localizer::shared_map_error() const {
 
 /// Says what was found, and whether to trust it.
 void Localizer::judge(double stamp) {
+  const Stopwatch watch(timings_.tracking);
   estimate_ = Estimate{};
   estimate_.stamp = stamp;
   estimate_.pose = tracker_.estimate().pose;
@@ -240,27 +239,31 @@ void Localizer::judge(double stamp) {
   estimate_.open_direction =
       open_direction(fix_covariance(scan_fit_.information), settings_.status);
   if (estimate_.open_direction) estimate_.status = Status::degraded;
-  if (ambiguous_) {
-    estimate_.status = Status::ambiguous;
-    return;
-  }
+  if (ambiguous_) estimate_.status = Status::ambiguous;
+  if (!ambiguous_) estimate_.protection_m = protection();
+}
+
+/// Over the hypotheses that one wall is wrong, that a wall stands where returns are parallel to
+/// it, and that the rival is right (m).
+double Localizer::protection() {
   walls_.clear();
   for (const WallShare& share : refiner_.shares()) {
     walls_.push_back({share.equations.information, share.equations.score});
   }
-  estimate_.protection_m = protection_level(tracker_.estimate(), predicted_, scan_fit_.pose, walls_,
-                                            settings_.protection);
+  const PoseWithCovariance& at = tracker_.estimate();
+  double level = protection_level(at, predicted_, scan_fit_.pose, walls_, settings_.protection);
+  const auto cover = [&](double apart, const Matrix3d& covariance) {
+    level = std::max(level, apart + radius_of(covariance, settings_.protection.risk));
+  };
   const double displaced =
       largest_displacement(refiner_.beams(), refiner_.on_wall(), scanner_,
                            map_error_.error().sigma_m(), settings_.displacement);
-  const double own = radius_of(estimate_.covariance, settings_.protection.risk);
-  if (displaced > 0.0) estimate_.protection_m = std::max(estimate_.protection_m, displaced + own);
-  if (!rival_) return;
-  const double apart =
-      (rival_->tracker.estimate().pose.translation() - estimate_.pose.translation()).norm();
-  const double of_rival =
-      radius_of(rival_->tracker.estimate().covariance, settings_.protection.risk);
-  estimate_.protection_m = std::max(estimate_.protection_m, apart + of_rival);
+  if (displaced > 0.0) cover(displaced, at.covariance);
+  if (rival_) {
+    const PoseWithCovariance& rival = rival_->tracker.estimate();
+    cover((rival.pose.translation() - at.pose.translation()).norm(), rival.covariance);
+  }
+  return level;
 }
 
 }  // namespace adit

@@ -13,18 +13,18 @@ struct Timings {
   double estimation = 0.0;
   double refinement = 0.0;
   double search = 0.0;
-  double tracking = 0.0;
+  double tracking = 0.0;  ///< prediction of the pose, fusion, judgement
   double total() const {
     return deskew + prediction + extraction + matching + estimation + refinement + search +
            tracking;
   }
 };
 
-/// Writes the life time of the object to `seconds`.
+/// Adds the life time of the object to `seconds`.
 class Stopwatch {
  public:
   explicit Stopwatch(double& seconds) : seconds_(seconds), start_(Clock::now()) {}
-  ~Stopwatch() { seconds_ = std::chrono::duration<double>(Clock::now() - start_).count(); }
+  ~Stopwatch() { seconds_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
   Stopwatch(const Stopwatch&) = delete;
   Stopwatch& operator=(const Stopwatch&) = delete;
 

@@ -51,16 +51,35 @@ Eigen::Matrix<double, N, 1> parameters_gradient(const BeamResidual& beam, const 
   }
 }
 
-/// What remains of the information on the first three parameters when the others are free.
-NormalEquations<3> marginal(const NormalEquations<9>& all) {
-  const Eigen::Matrix<double, 3, 6> gain =
-      all.information.topRightCorner<3, 6>() * all.information.bottomRightCorner<6, 6>().inverse();
+/// How the first three parameters follow the others where these are free.
+Eigen::Matrix<double, 3, 6> gain_of(const NormalEquations<9>& all) {
+  return all.information.topRightCorner<3, 6>() *
+         all.information.bottomRightCorner<6, 6>().inverse();
+}
+
+/// A part of the equations on the first three parameters, the others having followed by `gain`.
+NormalEquations<3> marginal(const NormalEquations<9>& part,
+                            const Eigen::Matrix<double, 3, 6>& gain) {
+  const Eigen::Matrix<double, 3, 6> left =
+      part.information.topRightCorner<3, 6>() - gain * part.information.bottomRightCorner<6, 6>();
   NormalEquations<3> out;
-  out.information =
-      all.information.topLeftCorner<3, 3>() - gain * all.information.bottomLeftCorner<6, 3>();
-  out.score = all.score.head<3>() - gain * all.score.tail<6>();
-  out.chi_square = all.chi_square;
+  out.information = part.information.topLeftCorner<3, 3>() -
+                    gain * part.information.bottomLeftCorner<6, 3>() - left * gain.transpose();
+  out.score = part.score.head<3>() - gain * part.score.tail<6>();
+  out.chi_square = part.chi_square;
   return out;
+}
+
+/// Adds what a run of beams on a wall says to what the wall has said before.
+template <int N>
+void add_share(int wall, const NormalEquations<N>& equations, std::vector<WallShareOf<N>>& shares) {
+  const auto known = std::find_if(shares.begin(), shares.end(),
+                                  [&](const WallShareOf<N>& share) { return share.wall == wall; });
+  if (known != shares.end()) {
+    known->equations += equations;
+  } else {
+    shares.push_back({wall, equations});
+  }
 }
 
 /// Dead reckoning's word on the correction. As a random walk it errs in each half by half of the
@@ -97,9 +116,9 @@ const ScanFit& Refiner::refine(const RefinementInput& input, const PoseWithCovar
     residuals_.compute(input.map, fit_.pose, path, fit_.correction, options, stride);
     weigh(input, spread, options);
     if (input.motion) {
-      accumulate<9>(input.map_error, input.motion);
+      combine_moving(input.map_error, *input.motion);
     } else {
-      accumulate<3>(input.map_error, input.motion);
+      combine_standing(input.map_error);
     }
     const double length = step(prior, input.motion.has_value(), options, spread);
     const bool is_coarse = stride > 1;
@@ -161,67 +180,67 @@ void Refiner::weigh(const RefinementInput& input, const Matrix3d& spread,
 
 /// The normal equations of all beams on walls, and each wall's part in them.
 template <int N>
-void Refiner::accumulate(const MapError& map_error, const std::optional<SweepPrior>& motion) {
+void Refiner::accumulate(const MapError& map_error, std::vector<WallShareOf<N>>& shares,
+                         NormalEquations<N>& shared, NormalEquations<N>& white) {
   const std::vector<BeamResidual>& beams = residuals_.beams();
   const RigidTransform map_from_vehicle(fit_.pose);
-  NormalEquations<N> shared;
-  NormalEquations<N> white;
   OffsetWhitener<N> whitener(map_error);
-  shares_.clear();
-  NormalEquations<N> of_wall;
-  int wall = -1;
+  WallShareOf<N> current;
+  shares.clear();
   const auto close_wall = [&] {
-    if (wall < 0) return;
-    of_wall.mirror();
-    shared += of_wall;
-    NormalEquations<3> share;
-    share.information = of_wall.information.template topLeftCorner<3, 3>();
-    share.score = of_wall.score.template head<3>();
-    share.chi_square = of_wall.chi_square;
-    add_share(wall, share);
-    of_wall = NormalEquations<N>{};
+    if (current.wall < 0) return;
+    current.equations.mirror();
+    shared += current.equations;
+    add_share(current.wall, current.equations, shares);
   };
   for (std::size_t k = 0; k < beams.size(); ++k) {
     const double probability = classifier_.on_wall()[k];
     if (probability < kLeastProbability) continue;
     const BeamResidual& beam = beams[k];
-    if (beam.wall != wall) {
+    if (beam.wall != current.wall) {
       close_wall();
-      wall = beam.wall;
+      current = {beam.wall, {}};
     }
     const auto gradient = parameters_gradient<N>(beam, map_from_vehicle, fit_.correction);
     const double variance = noise_[k] / probability;
     whitener.move_to(beam.hit, beam.normal);
-    whitener.add(beam.residual, gradient, beam.stretch, variance, of_wall);
+    whitener.add(beam.residual, gradient, beam.stretch, variance, current.equations);
     white.add(gradient, beam.residual, 1.0 / variance);
   }
   close_wall();
   white.mirror();
-  NormalEquations<3> pose_part;
-  if constexpr (N == 3) {
-    pose_part = shared;
-    fit_.white_information = white.information;
-  } else {
-    add_motion_prior(*motion, fit_.correction, shared);
-    add_motion_prior(*motion, fit_.correction, white);
-    pose_part = marginal(shared);
-    fit_.white_information = marginal(white).information;
-    correction_information_ = shared.information.template bottomRows<6>();
-    correction_score_ = shared.score.template tail<6>();
-  }
-  fit_.information = pose_part.information;
-  fit_.score = pose_part.score;
-  fit_.chi_square = pose_part.chi_square;
 }
 
-void Refiner::add_share(int wall, const NormalEquations<3>& equations) {
-  const auto known = std::find_if(shares_.begin(), shares_.end(),
-                                  [&](const WallShare& share) { return share.wall == wall; });
-  if (known != shares_.end()) {
-    known->equations += equations;
-  } else {
-    shares_.push_back({wall, equations});
+/// What the scan says of a vehicle at rest.
+void Refiner::combine_standing(const MapError& map_error) {
+  NormalEquations<3> shared;
+  NormalEquations<3> white;
+  accumulate<3>(map_error, shares_, shared, white);
+  take(shared, white);
+}
+
+/// What it says of the pose of a vehicle on the move, the sweep's motion being free.
+void Refiner::combine_moving(const MapError& map_error, const SweepPrior& motion) {
+  NormalEquations<9> shared;
+  NormalEquations<9> white;
+  accumulate<9>(map_error, moving_shares_, shared, white);
+  add_motion_prior(motion, fit_.correction, shared);
+  add_motion_prior(motion, fit_.correction, white);
+  const Eigen::Matrix<double, 3, 6> gain = gain_of(shared);
+  take(marginal(shared, gain), marginal(white, gain_of(white)));
+  shares_.clear();
+  for (const WallShareOf<9>& share : moving_shares_) {
+    shares_.push_back({share.wall, marginal(share.equations, gain)});
   }
+  correction_information_ = shared.information.bottomRows<6>();
+  correction_score_ = shared.score.tail<6>();
+}
+
+void Refiner::take(const NormalEquations<3>& shared, const NormalEquations<3>& white) {
+  fit_.information = shared.information;
+  fit_.score = shared.score;
+  fit_.chi_square = shared.chi_square;
+  fit_.white_information = white.information;
 }
 
 /// A Gauss-Newton step to the pose that scan and prior make most likely; its length in sigmas.

@@ -31,11 +31,13 @@ struct RefinementInput {
   std::optional<SweepPrior> motion;  ///< of a scanner that takes its time
 };
 
-/// What one wall of the plan contributed to a fit.
-struct WallShare {
+/// What one wall of the plan contributed to a fit over N parameters.
+template <int N>
+struct WallShareOf {
   int wall = -1;
-  NormalEquations<3> equations;
+  NormalEquations<N> equations;
 };
+using WallShare = WallShareOf<3>;
 
 /// All points of a scan against the map: what they say of the vehicle's pose.
 ///
@@ -77,18 +79,23 @@ class Refiner {
   /// The beams of the last step and the probability of each to have met the map's wall.
   const std::vector<BeamResidual>& beams() const { return residuals_.beams(); }
   std::span<const double> on_wall() const { return classifier_.on_wall(); }
-  /// The parts of the fit's information, wall by wall.
+  /// The parts of the fit's information, wall by wall, over the pose. On the move what they leave
+  /// open of the sweep's motion is taken out of each, and dead reckoning's part in that is no
+  /// wall's.
   const std::vector<WallShare>& shares() const { return shares_; }
 
  private:
   void weigh(const RefinementInput& input, const Matrix3d& spread,
              const RefinementOptions& options);
   template <int N>
-  void accumulate(const MapError& map_error, const std::optional<SweepPrior>& motion);
+  void accumulate(const MapError& map_error, std::vector<WallShareOf<N>>& shares,
+                  NormalEquations<N>& shared, NormalEquations<N>& white);
+  void combine_standing(const MapError& map_error);
+  void combine_moving(const MapError& map_error, const SweepPrior& motion);
+  void take(const NormalEquations<3>& shared, const NormalEquations<3>& white);
   double step(const PoseWithCovariance& prior, bool moving, const RefinementOptions& options,
               Matrix3d& spread);
   bool is_last(double length, const RefinementOptions& options);
-  void add_share(int wall, const NormalEquations<3>& equations);
 
   BeamResiduals residuals_;
   BeamClassifier classifier_;
@@ -97,6 +104,7 @@ class Refiner {
   double last_share_ = 0.0;
   double spread_share_ = 0.0;  // of the doubt about the pose in that, on average
   std::vector<WallShare> shares_;
+  std::vector<WallShareOf<9>> moving_shares_;  // with the correction of the sweep's motion
   Pose2 next_;
   SweepCorrection next_correction_;
   // The correction's rows of the normal equations.

@@ -6,10 +6,9 @@
 namespace adit {
 
 bool explains(const FitQuality& quality, const StatusOptions& options) {
-  const double usual =
+  const double asked =
       std::min(options.least_evidence_ratio + options.evidence_per_behind * quality.behind_ratio,
                options.most_evidence_ratio);
-  const double asked = quality.agrees ? usual : options.regain_evidence_ratio;
   return quality.converged && quality.evidence_ratio > asked &&
          quality.wall_ratio > options.least_wall_ratio &&
          quality.behind_ratio < options.most_behind_ratio;
@@ -17,7 +16,8 @@ bool explains(const FitQuality& quality, const StatusOptions& options) {
 
 bool Trust::next(const FitQuality& quality, double way_m, const StatusOptions& options) {
   if (quality.returns < options.fewest_returns) return false;
-  if (!explains(quality, options)) {
+  const bool agrees = quality.agrees || quality.evidence_ratio > options.regain_evidence_ratio;
+  if (!agrees || !explains(quality, options)) {
     contradicted_ = true;
     regained_m_ = 0.0;
     return false;

@@ -16,7 +16,6 @@ struct StatusOptions {
   double regain_evidence_ratio = 0.75;
   double regain_slack = 0.15;
   double regain_way_m = 5.0;
-  double disagree_chi_square = 16.27;
   double fewest_returns = 20.0;
   double least_wall_ratio = 0.3;
   double most_behind_ratio = 0.5;
@@ -40,16 +39,13 @@ struct StatusOptions {
           "a lost scan of which so much is explained still corrects dead reckoning, if the two "
           "agree");
     field("regain_evidence_ratio", self.regain_evidence_ratio,
-          "where the scan disagrees with dead reckoning, so much must be explained");
+          "where the scan lies beyond the tracking's gate, so much must be explained; and by the "
+          "first scans after a contradiction");
     field("regain_slack", self.regain_slack,
           "after a scan that contradicted the pose, as much must be explained as is usual here but "
           "for this ...");
     field("regain_way_m", self.regain_way_m,
           "... for so long a way (m) before the pose is trusted again: mines look like themselves");
-    field("disagree_chi_square", self.disagree_chi_square,
-          "a fix farther than this from dead reckoning disagrees with it; chi-square of three "
-          "degrees "
-          "of freedom at 1e-3");
     field("fewest_returns", self.fewest_returns,
           "a scan of fewer returns contradicts nothing: the scanner is blind");
     field("least_wall_ratio", self.least_wall_ratio,
@@ -79,7 +75,7 @@ struct StatusOptions {
 /// What a fit of all points says of how well it explains the scan; shares of the returns.
 struct FitQuality {
   bool converged = false;
-  bool agrees = true;           ///< with dead reckoning
+  bool agrees = true;           ///< with dead reckoning, by the tracking's gate
   double evidence_ratio = 0.0;  ///< of what a scan of nothing but the map's walls would give
   double returns = 0.0;
   double wall_ratio = 0.0;
@@ -93,6 +89,7 @@ bool explains(const FitQuality& quality, const StatusOptions& options);
 class Trust {
  public:
   /// The next scan's fit, and the way (m) since the last scan. True while the pose may be trusted.
+  /// Of a fit that disagrees with dead reckoning more is asked than to explain the scan.
   bool next(const FitQuality& quality, double way_m, const StatusOptions& options);
   void reset() { *this = Trust{}; }
   /// Whether a scan contradicted the pose and it has not been regained since.

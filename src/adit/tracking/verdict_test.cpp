@@ -73,13 +73,6 @@ TEST(Explains, AsksMoreWhereRockIsSeenThrough) {
   EXPECT_NEAR(evidence_asked(fit, options), options.most_evidence_ratio, 2e-3);
 }
 
-TEST(Explains, AsksMoreWhereScanAndDeadReckoningDisagree) {
-  const StatusOptions options;
-  FitQuality fit = good();
-  fit.agrees = false;
-  EXPECT_NEAR(evidence_asked(fit, options), options.regain_evidence_ratio, 2e-3);
-}
-
 TEST(Explains, RefusesWhatIsNoNumber) {
   for (double FitQuality::*ratio :
        {&FitQuality::evidence_ratio, &FitQuality::wall_ratio, &FitQuality::behind_ratio}) {
@@ -93,6 +86,17 @@ TEST(Explains, RefusesWhatIsNoNumber) {
 TEST(Trust, HoldsWhileScansExplainThemselves) {
   Trust trust;
   for (int i = 0; i < 10; ++i) EXPECT_TRUE(trust.next(good(), 1.0, {}));
+}
+
+TEST(Trust, AsksMoreWhereScanAndDeadReckoningDisagree) {
+  const StatusOptions options;
+  FitQuality fit = good();
+  fit.agrees = false;
+  fit.evidence_ratio = options.regain_evidence_ratio - 0.01;
+  EXPECT_TRUE(explains(fit, options));
+  EXPECT_FALSE(Trust{}.next(fit, 1.0, options));
+  fit.evidence_ratio = options.regain_evidence_ratio + 0.01;
+  EXPECT_TRUE(Trust{}.next(fit, 1.0, options));
 }
 
 /// How far (m) the vehicle must go in steps until the pose is trusted again.
