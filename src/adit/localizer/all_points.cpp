@@ -121,7 +121,8 @@ void Localizer::weigh_rival(const RefinementInput& input, const ScanFit& rival_f
   const bool as_good = quality_of(rival_fit).evidence_ratio >
                        options.rival_evidence_ratio * quality_of(scan_fit_).evidence_ratio;
   if (stands) {
-    const double gain = shared_ratio(scan_fit_) * (scan_fit_.log_evidence - rival_fit.log_evidence);
+    const double gain =
+        shared_ratio(scan_fit_) * (scan_fit_.log_likelihood - rival_fit.log_likelihood);
     rival_->lead = std::clamp(rival_->lead + gain, -options.rival_gain, options.rival_gain);
   }
   if (!stands && reconciled()) {

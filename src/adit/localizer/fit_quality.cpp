@@ -18,7 +18,7 @@ double plausibility(const ScanFit& fit, const PoseWithCovariance& prediction, do
   constexpr double kFreedom = 4.0;
   const Vector3d off = difference(prediction.pose, fit.pose);
   const double chi_square = off.dot(prediction.covariance.inverse() * off);
-  return shared * fit.log_evidence - 0.5 * (kFreedom + 3.0) * std::log1p(chi_square / kFreedom);
+  return shared * fit.log_likelihood - 0.5 * (kFreedom + 3.0) * std::log1p(chi_square / kFreedom);
 }
 
 bool elsewhere(const ScanFit& a, const ScanFit& b) {

@@ -195,7 +195,11 @@ void Localizer::track_pose() {
   if (!contributed_) return;
   const PoseTracker before = tracker_;
   const double chi_square = tracker_.update(fix, settings_.tracking);
-  if (chi_square > gate && !rival_) rival_ = Rival{before, 0.0, 0.0};
+  if (chi_square > gate && !rival_) {
+    rival_ = Rival{before, 0.0, 0.0};
+    // One scan against all before it: the next must decide.
+    ambiguous_ = chi_square > settings_.status.jump_chi_square;
+  }
   if (!believed_) return;
   learn_map_error();
 }

@@ -15,6 +15,9 @@ constexpr double kFarOff = 1.5;
 // How much farther than the farthest return the map is looked at (m): walls that are gone.
 constexpr double kBeyondReturns = 2.0;
 
+// Room for the walls about a beam's end; where more crowd, the buffer grows.
+constexpr std::size_t kMostNear = 256;
+
 /// How far (m) a return lies along its beam from a wall, if by less than `least`; else `least`.
 double distance_along(const WallLine& line, const Vector2d& end, const Vector2d& direction,
                       double least) {
@@ -44,6 +47,7 @@ void BeamResiduals::set_scan(const LaserScan& scan, const ScannerModel& scanner)
   ranges_.resize(count);
   walls_.resize(count);
   beams_.reserve(count);
+  near_.reserve(kMostNear);
   const bool even = scan.bearings.empty();
   const bool known = even && evenly_spaced_;
   evenly_spaced_ = even;
@@ -99,9 +103,9 @@ void BeamResiduals::compute(const LineMap& map, const Pose2& map_from_vehicle,
   beams_.clear();
   neighbours_.reset(map, options.neighbour_reach_m);
   unmapped_ = 0;
+  log_unmapped_ = 0.0;
   const std::size_t count = directions_.size();
   const std::size_t stations = station_count(path, options.station_spacing_m);
-  const double least_cosine = std::cos(options.max_incidence_rad);
   for (std::size_t k = 0; k < stations; ++k) {
     Station station;
     station.begin = k * count / stations;
@@ -117,7 +121,7 @@ void BeamResiduals::compute(const LineMap& map, const Pose2& map_from_vehicle,
       station.velocity = (last.translation() - first.translation()) / (end - begin);
       station.turn_rate = angle_between(first.theta, last.theta) / (end - begin);
     }
-    look_from(map, station, map_from_vehicle.translation(), least_cosine, stride);
+    look_from(map, station, map_from_vehicle.translation(), options, stride);
   }
 }
 
@@ -135,25 +139,46 @@ const WallLine& BeamResiduals::wall_met(const WallLine& in_the_way, const Vector
   return *best;
 }
 
-void BeamResiduals::look_up_walls(const Station& station, std::span<double> ranges,
-                                  std::span<int> walls) const {
+/// The wall that the beam met when the one in its way is not there: one close to its end.
+bool BeamResiduals::find_wall_beyond(const LineMap& map, const Vector2d& end,
+                                     const Vector2d& direction, double reach) {
+  near_.clear();
+  map.near(end, reach, near_);
+  double least = reach;
+  for (const int wall : near_) {
+    const WallLine line = line_of(map, wall);
+    const double distance = distance_along(line, end, direction, least);
+    if (!(distance < least)) continue;
+    least = distance;
+    beyond_ = line;
+  }
+  return least < reach;
+}
+
+/// Of every so many beams of the station, as many as there is room for.
+void BeamResiduals::look_up_walls(const Station& station, std::size_t stride,
+                                  std::span<double> ranges, std::span<int> walls) const {
   const double turn_per_beam = station.turn_rate * timing_.step_s;
   const auto bearing = [&](std::size_t i) {
     return station.laser.theta + scan_->bearing(i) +
            station.turn_rate * (timing_.at(i) - station.tau);
   };
   if (evenly_spaced_) {
-    visibility_.ranges(bearing(station.begin), bearing_step_ + turn_per_beam, ranges, walls);
+    visibility_.ranges(bearing(station.begin),
+                       static_cast<double>(stride) * (bearing_step_ + turn_per_beam), ranges,
+                       walls);
     return;
   }
   for (std::size_t k = 0; k < ranges.size(); ++k) {
-    visibility_.ranges(bearing(station.begin + k), 1.0, ranges.subspan(k, 1), walls.subspan(k, 1));
+    visibility_.ranges(bearing(station.begin + k * stride), 1.0, ranges.subspan(k, 1),
+                       walls.subspan(k, 1));
   }
 }
 
 void BeamResiduals::look_from(const LineMap& map, const Station& station, const Vector2d& vehicle,
-                              double least_cosine, std::size_t stride) {
-  const std::size_t count = station.end - station.begin;
+                              const RefinementOptions& options, std::size_t stride) {
+  const double least_cosine = std::cos(options.max_incidence_rad);
+  const std::size_t count = (station.end - station.begin + stride - 1) / stride;
   const RigidTransform map_from_laser(station.laser);
   const Vector2d centre = station.laser.translation();
   const bool moves = timing_.step_s != 0.0;
@@ -164,13 +189,17 @@ void BeamResiduals::look_from(const LineMap& map, const Station& station, const 
     swept_map_ = &map;
     swept_from_ = centre;
   }
-  look_up_walls(station, ranges, walls);
+  look_up_walls(station, stride, ranges, walls);
+  const bool looks_beyond = stride == 1;  // the few beams that lead the way do without
   WallLine wall;
-  for (std::size_t k = 0; k < count; k += stride) {
-    const std::size_t i = station.begin + k;
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::size_t i = station.begin + k * stride;
     const bool has_return = is_return(i);
     if (walls[k] < 0) {
-      unmapped_ += has_return ? 1 : 0;
+      if (has_return) {
+        ++unmapped_;
+        log_unmapped_ += std::log(scan_->ranges[i] / reach_);
+      }
       continue;
     }
     if (walls[k] != wall.wall) wall = line_of(map, walls[k]);
@@ -189,8 +218,13 @@ void BeamResiduals::look_from(const LineMap& map, const Station& station, const 
     const double measured = has_return ? scan_->ranges[i] : range;
     const double missed = std::abs(measured - range);
     // A neighbour is asked only where the scanner's noise cannot explain the range.
-    if (missed > noise_reach_ && missed < kFarOff) {
-      met = &wall_met(wall, origin + measured * direction, direction, missed);
+    const Vector2d end = origin + measured * direction;
+    if (missed > noise_reach_ && missed < kFarOff) met = &wall_met(wall, end, direction, missed);
+    const bool is_beyond = looks_beyond && met == &wall &&
+                           measured - range > options.neighbour_reach_m &&
+                           find_wall_beyond(map, end, direction, options.neighbour_reach_m);
+    if (is_beyond) met = &beyond_;
+    if (met != &wall) {
       cosine = met->normal.dot(direction);
       range = met->normal.dot(met->foot - origin) / cosine;
     }
@@ -211,6 +245,7 @@ void BeamResiduals::look_from(const LineMap& map, const Station& station, const 
     out.beam = static_cast<int>(i);
     out.wall = met->wall;
     out.has_return = has_return;
+    out.is_beyond = is_beyond;
   }
 }
 

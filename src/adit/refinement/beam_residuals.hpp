@@ -29,6 +29,8 @@ struct BeamResidual {
   int beam = -1;                          ///< in the scan
   int wall = -1;
   bool has_return = false;
+  bool is_beyond =
+      false;  ///< the map has another wall before this one, which the beam went through
 };
 
 /// All beams of a scan against the map: residuals and gradients at a pose of the vehicle.
@@ -50,6 +52,8 @@ class BeamResiduals {
   const std::vector<BeamResidual>& beams() const { return beams_; }
   /// Beams with a return where the map has nothing in range.
   int unmapped() const { return unmapped_; }
+  /// Log of their density, anywhere within reach, against one over the range that was measured.
+  double log_unmapped() const { return log_unmapped_; }
 
  private:
   struct Station {
@@ -65,10 +69,14 @@ class BeamResiduals {
                  const SweepCorrection& correction, double tau) const;
   std::size_t station_count(const SweepPath& path, double spacing) const;
   void look_from(const LineMap& map, const Station& station, const Vector2d& vehicle,
-                 double least_cosine, std::size_t stride);
-  void look_up_walls(const Station& station, std::span<double> ranges, std::span<int> walls) const;
+                 const RefinementOptions& options, std::size_t stride);
+  void look_up_walls(const Station& station, std::size_t stride, std::span<double> ranges,
+                     std::span<int> walls) const;
   const WallLine& wall_met(const WallLine& in_the_way, const Vector2d& end,
                            const Vector2d& direction, double least);
+
+  bool find_wall_beyond(const LineMap& map, const Vector2d& end, const Vector2d& direction,
+                        double reach);
 
   double longest_return() const;
   bool is_return(std::size_t beam) const;
@@ -87,10 +95,13 @@ class BeamResiduals {
   std::vector<Vector2d> directions_;
   Visibility visibility_;
   WallNeighbours neighbours_;
+  std::vector<int> near_;  // walls about the end of a beam that went through one
+  WallLine beyond_;
   std::vector<double> ranges_;
   std::vector<int> walls_;
   std::vector<BeamResidual> beams_;
   int unmapped_ = 0;
+  double log_unmapped_ = 0.0;
 };
 
 }  // namespace adit

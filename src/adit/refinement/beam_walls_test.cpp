@@ -104,8 +104,28 @@ TEST(BeamResiduals, NoNeighbourIsAskedWhereTheNoiseExplainsAll) {
 TEST(BeamResiduals, AWallBeyondReachIsNoNeighbour) {
   RefinementOptions options;
   options.neighbour_reach_m = 0.3;
-  EXPECT_NEAR(beams_of(star(5.29), doubled_wall(0.29), options).front().residual, 0.0, 1e-9);
-  EXPECT_NEAR(beams_of(star(5.31), doubled_wall(0.31), options).front().residual, 0.31, 1e-9);
+  const BeamResidual near = beams_of(star(5.29), doubled_wall(0.29), options).front();
+  EXPECT_NEAR(near.residual, 0.0, 1e-9);
+  EXPECT_FALSE(near.is_beyond);
+  const BeamResidual far = beams_of(star(5.31), doubled_wall(0.31), options).front();
+  EXPECT_NEAR(far.residual, 0.0, 1e-9);
+  EXPECT_TRUE(far.is_beyond);
+}
+
+TEST(BeamResiduals, ABeamThroughAWallMeetsTheOneAtItsEnd) {
+  const BeamResidual met = beams_of(star(8.1), doubled_wall(3.0)).front();
+  EXPECT_TRUE(met.is_beyond);
+  EXPECT_NEAR(met.residual, 0.1, 1e-9);
+  EXPECT_NEAR(met.range, 8.0, 1e-9);
+  EXPECT_NEAR(met.hit.x(), 8.0, 1e-9);
+}
+
+TEST(BeamResiduals, ABeamThroughAWallThatEndsNowhereMeetsNothing) {
+  for (const double range : {7.6, 8.4}) {
+    const BeamResidual beam = beams_of(star(range), doubled_wall(3.0)).front();
+    EXPECT_FALSE(beam.is_beyond);
+    EXPECT_NEAR(beam.residual, range - 5.0, 1e-9);
+  }
 }
 
 TEST(BeamResiduals, ANeighbourEndsWhereItEnds) {

@@ -52,9 +52,11 @@ void BeamClassifier::find_ratios(std::span<const BeamResidual> beams,
     on_wall_[k] = beam.range / ((beam.residual < 0.0 ? before : behind) * std::sqrt(variance));
   }
   expected_ = expected_log_of(beams);
+  log_other_ = log_other_of(beams, options);
   auto ratios = ratio_.head(size);
   ratios = ratios.max(-200.0).exp() * on_wall_.head(size);
   for (Eigen::Index k = 0; k < size; ++k) {
+    if (beams[static_cast<std::size_t>(k)].is_beyond) ratio_[k] *= options.beyond_ratio;
     if (!beams[static_cast<std::size_t>(k)].has_return) ratio_[k] = 1.0;
   }
 }
@@ -66,6 +68,19 @@ double BeamClassifier::expected_log_of(std::span<const BeamResidual> beams) cons
   for (std::size_t k = 0; k < beams.size(); ++k) {
     const double ratio = mean_loss * on_wall_[static_cast<Eigen::Index>(k)];
     if (beams[k].has_return && ratio > 1.0) product.multiply(ratio);
+  }
+  return product.log();
+}
+
+/// A return from something else is anywhere before the wall in the way, or rarely behind it;
+/// against a density of one over the range that was measured, which no pose changes.
+double BeamClassifier::log_other_of(std::span<const BeamResidual> beams,
+                                    const RefinementOptions& options) {
+  LogProduct product;
+  for (const BeamResidual& beam : beams) {
+    if (!beam.has_return) continue;
+    const double share = beam.residual < 0.0 ? 1.0 - options.long_ratio : options.long_ratio;
+    product.multiply(share * (1.0 + beam.residual / beam.range));
   }
   return product.log();
 }

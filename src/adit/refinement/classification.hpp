@@ -35,6 +35,9 @@ class BeamClassifier {
   /// Log of the probability density of all returns under both classes, against "something else"
   /// everywhere: what the map explains of the scan.
   double log_evidence() const { return log_evidence_; }
+  /// Log of the density of all returns under "something else", against one that does not ask the
+  /// map: with `log_evidence` it compares poses that see other walls.
+  double log_other() const { return log_other_; }
   /// What that would be on average if every return came from the map's wall.
   double expected_log_evidence() const { return expected_; }
 
@@ -42,6 +45,7 @@ class BeamClassifier {
   void find_ratios(std::span<const BeamResidual> beams, std::span<const double> variances,
                    const RefinementOptions& options);
   double expected_log_of(std::span<const BeamResidual> beams) const;
+  static double log_other_of(std::span<const BeamResidual> beams, const RefinementOptions& options);
   void run_chain(const RefinementOptions& options);
   void count(std::span<const BeamResidual> beams);
 
@@ -51,6 +55,7 @@ class BeamClassifier {
   std::size_t size_ = 0;
   BeamCounts counts_;
   double log_evidence_ = 0.0;
+  double log_other_ = 0.0;
   double expected_ = 0.0;
 };
 

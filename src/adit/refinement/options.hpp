@@ -11,11 +11,12 @@ struct RefinementOptions {
   double long_ratio = 0.1;
   double max_incidence_rad = radians(89.0);
   int max_iterations = 8;
-  double step_tolerance = 1.0;
+  double step_tolerance = 2.0;
   double max_step_m = 0.7;
   double max_step_rad = 0.15;
   double station_spacing_m = 0.1;
   double neighbour_reach_m = 0.3;
+  double beyond_ratio = 0.1;
   double corner_reach_ratio = 5.0;
   double corner_sigma_ratio = 12.0;
 
@@ -39,6 +40,9 @@ struct RefinementOptions {
     field(
         "neighbour_reach_m", self.neighbour_reach_m,
         "a wall no farther than this from the one in the beam's way may be what the beam met (m)");
+    field("beyond_ratio", self.beyond_ratio,
+          "probability that a wall is gone, for beams that end at another wall behind it: doors, "
+          "curtains, cuts");
     field("corner_reach_ratio", self.corner_reach_ratio,
           "nearer to a corner than this times the map's error, the wall may be rounded off");
     field(

@@ -34,22 +34,23 @@ struct SearchOptions {
   }
 };
 
-/// Poses around a prediction: five by five places and three headings.
+/// Poses around a prediction: up to five by five places, and three headings.
 class PoseLattice {
  public:
   PoseLattice(const PoseWithCovariance& around, const SearchOptions& options);
 
-  std::span<const Pose2> poses() const { return poses_; }
+  std::span<const Pose2> poses() const { return {poses_.data(), count_}; }
   /// How far a pose may lie from the nearest of the lattice.
   Matrix3d spread() const;
 
  private:
-  static constexpr int kPlaces = 2;    // on either side
+  static constexpr int kPlaces = 2;    // on either side, at most
   static constexpr int kHeadings = 1;  // on either side
   static constexpr std::size_t kPoses = (2 * kPlaces + 1) * (2 * kPlaces + 1) * (2 * kHeadings + 1);
 
   double step_m_ = 0.0;
   double step_rad_ = 0.0;
+  std::size_t count_ = 0;
   std::array<Pose2, kPoses> poses_;
 };
 

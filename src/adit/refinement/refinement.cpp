@@ -128,6 +128,7 @@ const ScanFit& Refiner::refine(const RefinementInput& input, const PoseWithCovar
   fit_.counts = classifier_.counts();
   fit_.counts.unmapped = residuals_.unmapped();
   fit_.log_evidence = classifier_.log_evidence();
+  fit_.log_likelihood = log_likelihood();
   fit_.expected_log_evidence = classifier_.expected_log_evidence();
   return fit_;
 }
@@ -145,12 +146,17 @@ Pose2 Refiner::most_likely(const RefinementInput& input, const PoseWithCovarianc
     residuals_.compute(input.map, pose, path, SweepCorrection{}, options, stride);
     weigh(input, spread, options);
     const Vector3d off = difference(prior.pose, pose);
-    const double likelihood = classifier_.log_evidence() - 0.5 * off.dot(prior_information * off);
+    const double likelihood = log_likelihood() - 0.5 * off.dot(prior_information * off);
     if (likelihood <= most) continue;
     most = likelihood;
     best = pose;
   }
   return best;
+}
+
+/// Of the returns at the last pose looked at, against what no pose changes.
+double Refiner::log_likelihood() const {
+  return classifier_.log_evidence() + classifier_.log_other() + residuals_.log_unmapped();
 }
 
 /// The variance of each residual, and which beams met the wall.

@@ -52,7 +52,8 @@ struct ScanFit {
   SweepCorrection correction;  ///< of the sweep's motion, on top of dead reckoning's
   double chi_square = 0.0;
   BeamCounts counts;
-  double log_evidence = 0.0;
+  double log_evidence = 0.0;           ///< against "something else" everywhere
+  double log_likelihood = 0.0;         ///< against what no pose changes: compares poses
   double expected_log_evidence = 0.0;  ///< if all returns came from the map's walls
   int iterations = 0;
   bool converged = false;
@@ -95,6 +96,7 @@ class Refiner {
   void take(const NormalEquations<3>& shared, const NormalEquations<3>& white);
   double step(const PoseWithCovariance& prior, bool moving, const RefinementOptions& options,
               Matrix3d& spread);
+  double log_likelihood() const;
   bool is_last(double length, const RefinementOptions& options);
 
   BeamResiduals residuals_;

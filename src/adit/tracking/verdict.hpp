@@ -26,6 +26,7 @@ struct StatusOptions {
   double rival_way_m = 20.0;
   double rival_evidence_ratio = 0.6;
   double reconciled_chi_square = 6.25;
+  double jump_chi_square = 30.0;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -69,6 +70,9 @@ struct StatusOptions {
     field("reconciled_chi_square", self.reconciled_chi_square,
           "a rival that the estimate is no farther from than this, for the rival's own doubt, is "
           "none; 10 % of three degrees of freedom");
+    field("jump_chi_square", self.jump_chi_square,
+          "a scan farther than this from dead reckoning, far beyond chance, says that the vehicle "
+          "is elsewhere: ambiguous until the next");
   }
 };
 
