@@ -23,16 +23,34 @@ class LogProduct {
   double log_ = 0.0;
 };
 
+/// Of a return from something else (1/m): anywhere before the wall, or, rarely, anywhere as far
+/// behind it.
+double other_density(const BeamResidual& beam, const RefinementOptions& options) {
+  const double share = beam.residual < 0.0 ? 1.0 - options.long_ratio : options.long_ratio;
+  return share / beam.range;
+}
+
 }  // namespace
+
+double log_other(std::span<const BeamResidual> beams, const RefinementOptions& options) {
+  LogProduct product;
+  for (const BeamResidual& beam : beams) {
+    if (!beam.has_return) continue;
+    product.multiply(other_density(beam, options) * (beam.range + beam.residual));
+  }
+  return product.log();
+}
 
 void BeamClassifier::classify(std::span<const BeamResidual> beams,
                               std::span<const double> variances, const RefinementOptions& options) {
   find_ratios(beams, variances, options);
   run_chain(options);
-  count(beams);
+  for (std::size_t k = 0; k < beams.size(); ++k) {
+    if (!beams[k].has_return) on_wall_[static_cast<Eigen::Index>(k)] = 0.0;
+  }
 }
 
-/// Something else stands anywhere before the wall, or, rarely, anywhere as far behind it.
+/// The densities of a return, from the wall against something else.
 void BeamClassifier::find_ratios(std::span<const BeamResidual> beams,
                                  std::span<const double> variances,
                                  const RefinementOptions& options) {
@@ -51,38 +69,12 @@ void BeamClassifier::find_ratios(std::span<const BeamResidual> beams,
     ratio_[k] = -0.5 * beam.residual * beam.residual / variance;
     on_wall_[k] = beam.range / ((beam.residual < 0.0 ? before : behind) * std::sqrt(variance));
   }
-  expected_ = expected_log_of(beams);
-  log_other_ = log_other_of(beams, options);
   auto ratios = ratio_.head(size);
   ratios = ratios.max(-200.0).exp() * on_wall_.head(size);
   for (Eigen::Index k = 0; k < size; ++k) {
     if (beams[static_cast<std::size_t>(k)].is_beyond) ratio_[k] *= options.beyond_ratio;
     if (!beams[static_cast<std::size_t>(k)].has_return) ratio_[k] = 1.0;
   }
-}
-
-/// Sum of the logs of the ratios that beams on walls have on average, where that is above one.
-double BeamClassifier::expected_log_of(std::span<const BeamResidual> beams) const {
-  const double mean_loss = std::exp(-0.5);  // of a normal residual
-  LogProduct product;
-  for (std::size_t k = 0; k < beams.size(); ++k) {
-    const double ratio = mean_loss * on_wall_[static_cast<Eigen::Index>(k)];
-    if (beams[k].has_return && ratio > 1.0) product.multiply(ratio);
-  }
-  return product.log();
-}
-
-/// A return from something else is anywhere before the wall in the way, or rarely behind it;
-/// against a density of one over the range that was measured, which no pose changes.
-double BeamClassifier::log_other_of(std::span<const BeamResidual> beams,
-                                    const RefinementOptions& options) {
-  LogProduct product;
-  for (const BeamResidual& beam : beams) {
-    if (!beam.has_return) continue;
-    const double share = beam.residual < 0.0 ? 1.0 - options.long_ratio : options.long_ratio;
-    product.multiply(share * (1.0 + beam.residual / beam.range));
-  }
-  return product.log();
 }
 
 /// Forward and backward pass over unnormalised probabilities, scaled now and then: products alone
@@ -128,18 +120,27 @@ void BeamClassifier::run_chain(const RefinementOptions& options) {
   on_wall_.head(size) /= on_wall_.head(size) + other_.head(size);
 }
 
-void BeamClassifier::count(std::span<const BeamResidual> beams) {
-  counts_ = BeamCounts{};
+BeamSummary BeamClassifier::summary(std::span<const BeamResidual> beams,
+                                    std::span<const double> variances,
+                                    const RefinementOptions& options) const {
+  const double mean_loss = std::exp(-0.5);  // of a normal residual
+  BeamSummary summary;
+  LogProduct expected;
   for (std::size_t k = 0; k < beams.size(); ++k) {
-    double& weight = on_wall_[static_cast<Eigen::Index>(k)];
     if (!beams[k].has_return) {
-      weight = 0.0;
-      counts_.no_return += 1.0;
+      summary.counts.no_return += 1.0;
       continue;
     }
-    counts_.wall += weight;
-    (beams[k].residual < 0.0 ? counts_.before : counts_.behind) += 1.0 - weight;
+    const double weight = on_wall_[static_cast<Eigen::Index>(k)];
+    summary.counts.wall += weight;
+    (beams[k].residual < 0.0 ? summary.counts.before : summary.counts.behind) += 1.0 - weight;
+    // Of the beams that would tell a wall from something else.
+    const double ratio =
+        mean_loss / (other_density(beams[k], options) * std::sqrt(kTwoPi * variances[k]));
+    if (ratio > 1.0) expected.multiply(ratio);
   }
+  summary.expected_log_evidence = expected.log();
+  return summary;
 }
 
 }  // namespace adit

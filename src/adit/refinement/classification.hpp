@@ -18,6 +18,17 @@ struct BeamCounts {
   double returns() const { return wall + before + behind + unmapped; }
 };
 
+/// What a scan came to, once its beams are classified.
+struct BeamSummary {
+  BeamCounts counts;
+  /// What the evidence would be on average if every return came from the map's wall.
+  double expected_log_evidence = 0.0;
+};
+
+/// Log of the density of all returns under "something else", against one that does not ask the map:
+/// added to the evidence it compares poses that see other walls.
+double log_other(std::span<const BeamResidual> beams, const RefinementOptions& options);
+
 /// Which beams met the wall of the map, as probabilities.
 ///
 /// Two classes in a chain along the sweep: the map's wall, or something else. What stands in the
@@ -31,32 +42,23 @@ class BeamClassifier {
 
   /// Probability of each beam to have met the map's wall; 0 without return.
   std::span<const double> on_wall() const { return {on_wall_.data(), size_}; }
-  const BeamCounts& counts() const { return counts_; }
   /// Log of the probability density of all returns under both classes, against "something else"
   /// everywhere: what the map explains of the scan.
   double log_evidence() const { return log_evidence_; }
-  /// Log of the density of all returns under "something else", against one that does not ask the
-  /// map: with `log_evidence` it compares poses that see other walls.
-  double log_other() const { return log_other_; }
-  /// What that would be on average if every return came from the map's wall.
-  double expected_log_evidence() const { return expected_; }
+  /// Of the beams that were classified last, with the same variances and options.
+  BeamSummary summary(std::span<const BeamResidual> beams, std::span<const double> variances,
+                      const RefinementOptions& options) const;
 
  private:
   void find_ratios(std::span<const BeamResidual> beams, std::span<const double> variances,
                    const RefinementOptions& options);
-  double expected_log_of(std::span<const BeamResidual> beams) const;
-  static double log_other_of(std::span<const BeamResidual> beams, const RefinementOptions& options);
   void run_chain(const RefinementOptions& options);
-  void count(std::span<const BeamResidual> beams);
 
   Eigen::ArrayXd ratio_;  // of the densities, wall against something else; 1 says nothing
   Eigen::ArrayXd on_wall_;
   Eigen::ArrayXd other_;  // the chain's messages for the other class
   std::size_t size_ = 0;
-  BeamCounts counts_;
   double log_evidence_ = 0.0;
-  double log_other_ = 0.0;
-  double expected_ = 0.0;
 };
 
 }  // namespace adit

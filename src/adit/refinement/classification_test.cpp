@@ -29,11 +29,14 @@ struct Classified {
                       const std::vector<double>& variances = {},
                       const RefinementOptions& options = {}) {
     const std::vector<double> same(beams.size(), kSigma * kSigma);
-    classifier.classify(beams, variances.empty() ? same : variances, options);
+    const std::vector<double>& each = variances.empty() ? same : variances;
+    classifier.classify(beams, each, options);
+    summary = classifier.summary(beams, each, options);
   }
   double on_wall(std::size_t beam) const { return classifier.on_wall()[beam]; }
 
   BeamClassifier classifier;
+  BeamSummary summary;
 };
 
 /// Density of a return if the beam met the wall, against something else: that stands anywhere up to
@@ -87,8 +90,9 @@ TEST(BeamClassifier, AgreesWithEverySequenceOfClasses) {
     for (int i = 0; i < 1 + random.below(10); ++i) {
       const double sigma = random.uniform(0.01, 0.3);
       variances.push_back(sigma * sigma);
-      beams.push_back(
-          beam(4.0 * sigma * random.normal(), random.uniform(0.5, 20.0), random.chance(0.8)));
+      const bool is_return = random.chance(0.8);
+      const double range = random.uniform(0.5, 20.0);
+      beams.push_back(beam(4.0 * sigma * random.normal(), range, is_return));
     }
     const Exact exact = enumerate(beams, variances, options);
     const Classified found(beams, variances, options);
@@ -111,9 +115,9 @@ TEST(BeamClassifier, ARunOfShortBeamsStandsBeforeTheWall) {
       EXPECT_GT(found.on_wall(i), 0.98);
     }
   }
-  EXPECT_NEAR(found.classifier.counts().before, 10.0, 0.5);
-  EXPECT_NEAR(found.classifier.counts().behind, 0.0, 0.5);
-  EXPECT_NEAR(found.classifier.counts().wall, 50.0, 0.5);
+  EXPECT_NEAR(found.summary.counts.before, 10.0, 0.5);
+  EXPECT_NEAR(found.summary.counts.behind, 0.0, 0.5);
+  EXPECT_NEAR(found.summary.counts.wall, 50.0, 0.5);
 }
 
 TEST(BeamClassifier, NeighboursSpeakForABeam) {
@@ -130,7 +134,7 @@ TEST(BeamClassifier, LoneDustIsBeforeTheWall) {
   const Classified found(beams);
   for (std::size_t i = 5; i < 60; i += 11) EXPECT_LT(found.on_wall(i), 1e-6);
   EXPECT_GT(found.on_wall(6), 0.98);
-  EXPECT_NEAR(found.classifier.counts().before, 5.0, 0.5);
+  EXPECT_NEAR(found.summary.counts.before, 5.0, 0.5);
 }
 
 TEST(BeamClassifier, LongBeamsAreBehindAWallThatIsNotThere) {
@@ -138,9 +142,9 @@ TEST(BeamClassifier, LongBeamsAreBehindAWallThatIsNotThere) {
   for (std::size_t i = 30; i < 60; ++i) beams[i].residual = 2.0;
   const Classified found(beams);
   for (std::size_t i = 30; i < 60; ++i) EXPECT_LT(found.on_wall(i), 1e-6);
-  EXPECT_NEAR(found.classifier.counts().behind, 30.0, 0.5);
-  EXPECT_NEAR(found.classifier.counts().before, 0.0, 0.5);
-  EXPECT_NEAR(found.classifier.counts().returns(), 60.0, 1e-9);
+  EXPECT_NEAR(found.summary.counts.behind, 30.0, 0.5);
+  EXPECT_NEAR(found.summary.counts.before, 0.0, 0.5);
+  EXPECT_NEAR(found.summary.counts.returns(), 60.0, 1e-9);
 }
 
 TEST(BeamClassifier, BeamsWithoutReturnSayNothing) {
@@ -161,9 +165,9 @@ TEST(BeamClassifier, BeamsWithoutReturnSayNothing) {
     }
   }
   EXPECT_EQ(one.classifier.log_evidence(), other.classifier.log_evidence());
-  EXPECT_EQ(one.classifier.expected_log_evidence(), other.classifier.expected_log_evidence());
-  EXPECT_DOUBLE_EQ(one.classifier.counts().no_return, 14.0);
-  EXPECT_NEAR(one.classifier.counts().returns(), 26.0, 1e-9);
+  EXPECT_EQ(one.summary.expected_log_evidence, other.summary.expected_log_evidence);
+  EXPECT_DOUBLE_EQ(one.summary.counts.no_return, 14.0);
+  EXPECT_NEAR(one.summary.counts.returns(), 26.0, 1e-9);
 }
 
 TEST(BeamClassifier, TheEvidenceOfAScanOfWallsIsAsExpected) {
@@ -176,7 +180,7 @@ TEST(BeamClassifier, TheEvidenceOfAScanOfWallsIsAsExpected) {
     clutter.push_back(beam(random.uniform(-range, 0.0), range));
   }
   const Classified on_walls(walls);
-  const double expected = on_walls.classifier.expected_log_evidence();
+  const double expected = on_walls.summary.expected_log_evidence;
   EXPECT_GT(expected, 10000.0);
   EXPECT_NEAR(on_walls.classifier.log_evidence(), expected, 0.05 * expected);
   EXPECT_LT(Classified(clutter).classifier.log_evidence(), 0.05 * expected);
@@ -195,11 +199,22 @@ TEST(BeamClassifier, LongScansKeepTheirEvidence) {
   EXPECT_LT(far.on_wall(1500), 1e-6);
 }
 
+TEST(BeamClassifier, SomethingElseIsLikelierBeforeNearWalls) {
+  // The same returns at 4 m: as clutter before a wall at 8 m, or before one at 40 m.
+  const RefinementOptions options;
+  const auto other = [&](double range) {
+    return log_other(std::vector<BeamResidual>(10, beam(4.0 - range, range)), options);
+  };
+  EXPECT_NEAR(other(8.0) - other(40.0), 10.0 * std::log(5.0), 1e-9);
+  EXPECT_NEAR(other(8.0), 10.0 * std::log((1.0 - options.long_ratio) * 0.5), 1e-9);
+  EXPECT_EQ(log_other(std::vector<BeamResidual>(3, beam(0.0, 8.0, false)), options), 0.0);
+}
+
 TEST(BeamClassifier, AScanWithoutBeamsIsNothing) {
   const Classified none({});
   EXPECT_TRUE(none.classifier.on_wall().empty());
   EXPECT_EQ(none.classifier.log_evidence(), 0.0);
-  EXPECT_EQ(none.classifier.counts().returns(), 0.0);
+  EXPECT_EQ(none.summary.counts.returns(), 0.0);
 }
 
 TEST(BeamClassifier, AShorterScanAfterALongOneHasItsOwnLength) {

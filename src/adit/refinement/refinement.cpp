@@ -125,11 +125,12 @@ const ScanFit& Refiner::refine(const RefinementInput& input, const PoseWithCovar
     if (is_coarse && (length < kCoarseLength || fit_.iterations >= kMostCoarse)) stride = 1;
     fit_.converged = !is_coarse && is_last(length, options);
   }
-  fit_.counts = classifier_.counts();
+  const BeamSummary summary = classifier_.summary(residuals_.beams(), spread_, options);
+  fit_.counts = summary.counts;
   fit_.counts.unmapped = residuals_.unmapped();
   fit_.log_evidence = classifier_.log_evidence();
-  fit_.log_likelihood = log_likelihood();
-  fit_.expected_log_evidence = classifier_.expected_log_evidence();
+  fit_.expected_log_evidence = summary.expected_log_evidence;
+  fit_.log_likelihood = log_likelihood(options);
   return fit_;
 }
 
@@ -146,7 +147,7 @@ Pose2 Refiner::most_likely(const RefinementInput& input, const PoseWithCovarianc
     residuals_.compute(input.map, pose, path, SweepCorrection{}, options, stride);
     weigh(input, spread, options);
     const Vector3d off = difference(prior.pose, pose);
-    const double likelihood = log_likelihood() - 0.5 * off.dot(prior_information * off);
+    const double likelihood = log_likelihood(options) - 0.5 * off.dot(prior_information * off);
     if (likelihood <= most) continue;
     most = likelihood;
     best = pose;
@@ -155,8 +156,9 @@ Pose2 Refiner::most_likely(const RefinementInput& input, const PoseWithCovarianc
 }
 
 /// Of the returns at the last pose looked at, against what no pose changes.
-double Refiner::log_likelihood() const {
-  return classifier_.log_evidence() + classifier_.log_other() + residuals_.log_unmapped();
+double Refiner::log_likelihood(const RefinementOptions& options) const {
+  return classifier_.log_evidence() + log_other(residuals_.beams(), options) +
+         residuals_.log_unmapped();
 }
 
 /// The variance of each residual, and which beams met the wall.

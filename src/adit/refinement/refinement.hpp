@@ -96,7 +96,7 @@ class Refiner {
   void take(const NormalEquations<3>& shared, const NormalEquations<3>& white);
   double step(const PoseWithCovariance& prior, bool moving, const RefinementOptions& options,
               Matrix3d& spread);
-  double log_likelihood() const;
+  double log_likelihood(const RefinementOptions& options) const;
   bool is_last(double length, const RefinementOptions& options);
 
   BeamResiduals residuals_;
