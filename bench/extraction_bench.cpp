@@ -1,7 +1,7 @@
 #include <benchmark/benchmark.h>
 
 #include "adit/extraction/extraction.hpp"
-#include "mockup_run.hpp"
+#include "support/mockup_run.hpp"
 
 namespace adit {
 namespace {
@@ -20,12 +20,14 @@ bool lines_lie_on_walls(const FeatureList& features, const Pose2& map_from_laser
 }
 
 void extract_cyclone(benchmark::State& state) {
-  const MockupRun run(11);
+  const World world = test::cluttered_mockup(11, 8);
+  const Recording recording = test::record_mockup(11, 8);
+  const LocalizerSettings settings = test::mockup_settings();
   Extractor extractor;
-  for (std::size_t i = 0; i < run.recording.scans.size(); ++i) {
+  for (std::size_t i = 0; i < recording.scans.size(); ++i) {
     const FeatureList& features =
-        extractor.extract(run.recording.scans[i], run.settings.scanner, run.settings.extraction);
-    if (!lines_lie_on_walls(features, run.recording.truth[i].pose, run.world)) {
+        extractor.extract(recording.scans[i], settings.scanner, settings.extraction);
+    if (!lines_lie_on_walls(features, recording.truth[i].pose, world)) {
       state.SkipWithError("a long line lies off the walls");
       return;
     }
@@ -33,8 +35,8 @@ void extract_cyclone(benchmark::State& state) {
   std::size_t i = 0;
   for (auto _ : state) {
     benchmark::DoNotOptimize(extractor
-                                 .extract(run.recording.scans[i % run.recording.scans.size()],
-                                          run.settings.scanner, run.settings.extraction)
+                                 .extract(recording.scans[i % recording.scans.size()],
+                                          settings.scanner, settings.extraction)
                                  .size());
     ++i;
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "adit/map/line_map.hpp"
+#include "support/draws.hpp"
 
 namespace {
 
@@ -27,7 +28,7 @@ std::vector<Vector2d> pillar(const Vector2d& center, std::mt19937_64& random) {
     const Vector2d point =
         adit::RigidTransform({center.x(), center.y(), std::floor(along) * adit::kPi / 2.0})
             .point({from_middle, -7.0});
-    corners.push_back(point + Vector2d(rough(random), rough(random)));
+    corners.push_back(point + adit::test::drawn<2>([&] { return rough(random); }));
   }
   return corners;
 }

@@ -39,8 +39,9 @@ std::vector<Segment> pillars(int side) {
   };
   for (int row = 0; row < side; ++row) {
     for (int column = 0; column < side; ++column) {
-      const Vector2d low = kOrigin + Vector2d(column * kPitch, row * kPitch) +
-                           Vector2d(random.uniform(), random.uniform());
+      const double up = random.uniform();
+      const double aside = random.uniform();
+      const Vector2d low = kOrigin + Vector2d(column * kPitch, row * kPitch) + Vector2d(aside, up);
       const Vector2d high = low + Vector2d(kPillar, kPillar);
       walls.push_back({low + jitter(), Vector2d(high.x(), low.y()) + jitter()});
       walls.push_back({Vector2d(high.x(), low.y()) + jitter(), high + jitter()});

@@ -112,8 +112,8 @@ std::optional<PoseWithCovariance> draw_wrong_start(const TrialScene& scene, cons
   const double metres = scene.drive.first_guess_sigma_m;
   const double turn = scene.drive.first_guess_sigma_rad;
   for (int i = 0; i < kTries; ++i) {
-    const Vector2d place = truth.translation() +
-                           random.uniform(kElsewhere, 8.0) * unit_vector(random.uniform(-kPi, kPi));
+    const Vector2d direction = unit_vector(random.uniform(-kPi, kPi));
+    const Vector2d place = truth.translation() + random.uniform(kElsewhere, 8.0) * direction;
     const Pose2 start{place.x(), place.y(), random.uniform(-kPi, kPi)};
     if (!is_open(scene.world.plan, place) || !contradicts(ranges, map, truth, start)) continue;
     return PoseWithCovariance{start,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "adit/map/line_map.hpp"
+#include "support/draws.hpp"
 
 // Ray casting by definition: the oracle for everything that says what a position sees.
 namespace adit::testing {
@@ -96,7 +97,9 @@ inline std::vector<Segment> grid_segments(std::mt19937_64& random, int count, in
   std::uniform_int_distribution<int> at(0, size);
   std::vector<Segment> segments;
   for (int i = 0; i < count; ++i) {
-    segments.push_back({Vector2d(at(random), at(random)), Vector2d(at(random), at(random))});
+    const Vector2d a = test::drawn<2>([&] { return at(random); });
+    const Vector2d b = test::drawn<2>([&] { return at(random); });
+    segments.push_back({a, b});
   }
   return segments;
 }

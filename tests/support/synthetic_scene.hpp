@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "adit/features/features.hpp"
+#include "support/draws.hpp"
 
 namespace adit::testing {
 
@@ -128,7 +129,7 @@ class SceneMaker {
   void disturb(Corner& corner, double sigma_before, double sigma_after, int points) {
     const double sigma = 0.5 * options_.range_sigma;
     corner.covariance = sigma * sigma * Matrix2d::Identity();
-    corner.position += sigma * Vector2d(gaussian(), gaussian());
+    corner.position += sigma * test::drawn<2>([&] { return gaussian(); });
     corner.points = points;
     if (!corner.bisector) return;
     corner.concave_angle_sigma = std::hypot(sigma_before, sigma_after);
@@ -182,8 +183,10 @@ class SceneMaker {
   void add_box(FeatureList& out) {
     const double azimuth = uniform(-kPi, kPi);
     const Vector2d edge = uniform(1.0, 8.0) * unit_vector(azimuth);
-    const Vector2d before = edge + uniform(0.4, 1.2) * unit_vector(azimuth - uniform(0.4, 1.2));
-    const Vector2d after = edge + uniform(0.4, 1.2) * unit_vector(azimuth + uniform(0.4, 1.2));
+    const Vector2d to_before = unit_vector(azimuth - uniform(0.4, 1.2));
+    const Vector2d before = edge + uniform(0.4, 1.2) * to_before;
+    const Vector2d to_after = unit_vector(azimuth + uniform(0.4, 1.2));
+    const Vector2d after = edge + uniform(0.4, 1.2) * to_after;
     const int first = static_cast<int>(out.lines.size());
     out.lines.push_back(line_between(before, edge));
     out.lines.push_back(line_between(edge, after));

@@ -1,23 +1,9 @@
-// Deskewing must not allocate once its buffers have grown: counted by replacing operator new.
+// Deskewing must not allocate once its buffers have grown.
 #include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <new>
 
 #include "adit/deskew/deskewer.hpp"
 #include "adit/deskew/sweep_motion.hpp"
-
-namespace {
-long allocations = 0;
-}  // namespace
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+#include "support/allocations.hpp"
 
 namespace adit {
 namespace {
@@ -42,10 +28,10 @@ TEST(SteadyState, DeskewingAllocatesNothing) {
     }
   };
   drive();
-  const long before = allocations;
+  const long before = test::allocations();
   ASSERT_GT(before, 0);
   drive();
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::allocations(), before);
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <Eigen/Cholesky>
 #include <random>
 
+#include "support/draws.hpp"
+
 namespace adit {
 namespace {
 
@@ -129,7 +131,7 @@ TEST(SweepMotion, TheCovarianceIsThatOfTheReportedMoves) {
   SweepMotion motion;
   const int count = 20000;
   for (int i = 0; i < count; ++i) {
-    const Vector3d error = root * Vector3d(normal(random), normal(random), normal(random));
+    const Vector3d error = root * test::drawn<3>([&] { return normal(random); });
     PoseHistory history(2);
     history.add({1.4, {}});
     history.add({1.6, Pose2::from_vector(moved(kDrive, kSweep).vector() + error)});

@@ -6,6 +6,8 @@
 #include <Eigen/LU>
 #include <random>
 
+#include "support/draws.hpp"
+
 namespace adit {
 namespace {
 
@@ -55,14 +57,14 @@ FeatureList sense(const FeatureList& model, const Pose2& pose, double noise, uns
   for (Line& line : sensed.lines) {
     line.covariance << 1e-5, 2e-5, 2e-5, 4e-4;
     const Matrix2d root = Matrix2d(line.covariance).llt().matrixL();
-    const Vector2d error = noise * (root * Vector2d(normal(random), normal(random)));
+    const Vector2d error = noise * (root * test::drawn<2>([&] { return normal(random); }));
     line.orientation = wrap_angle(line.orientation + error.x());
     line.distance += error.y();
   }
   for (Corner& corner : sensed.corners) {
     corner.covariance << 4e-4, 1e-4, 1e-4, 9e-4;
     const Matrix2d root = Matrix2d(corner.covariance).llt().matrixL();
-    corner.position += noise * (root * Vector2d(normal(random), normal(random)));
+    corner.position += noise * (root * test::drawn<2>([&] { return normal(random); }));
   }
   return sensed;
 }

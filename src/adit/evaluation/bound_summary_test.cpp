@@ -6,6 +6,8 @@
 #include <random>
 #include <vector>
 
+#include "support/draws.hpp"
+
 namespace adit {
 namespace {
 
@@ -25,7 +27,7 @@ TEST(MeanErrorLength, AgreesWithSampling) {
   constexpr int kSamples = 100000;
   double sum = 0.0;
   for (int i = 0; i < kSamples; ++i) {
-    sum += (root * Vector2d(normal(random), normal(random))).norm();
+    sum += (root * test::drawn<2>([&] { return normal(random); })).norm();
   }
   EXPECT_NEAR(mean_error_length(root * root.transpose()), sum / kSamples, 0.01);
 }

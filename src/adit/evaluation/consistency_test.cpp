@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "support/draws.hpp"
+
 namespace adit {
 namespace {
 
@@ -46,7 +48,7 @@ TEST(Consistency, HonestClaimsGiveOne) {
   std::normal_distribution<double> normal;
   std::vector<ClaimedError> rows;
   for (int i = 0; i < 20000; ++i) {
-    const Vector3d white(normal(random), normal(random), normal(random));
+    const Vector3d white = test::drawn<3>([&] { return normal(random); });
     rows.push_back({lower * white, covariance});
   }
   const ConsistencyFigures honest = judge_consistency(rows);

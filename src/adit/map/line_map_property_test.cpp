@@ -5,6 +5,7 @@
 #include <random>
 
 #include "adit/map/line_map.hpp"
+#include "support/draws.hpp"
 #include "support/plan_checks.hpp"
 
 namespace adit {
@@ -27,12 +28,21 @@ class DirtyPlan {
   }
   int die(int sides) { return std::uniform_int_distribution<int>(0, sides - 1)(random_); }
   Vector2d slip(double by) { return {uniform(-by, by), uniform(-by, by)}; }
-  Vector2d somewhere() { return origin_ + Vector2d(uniform(0.0, 8.0), uniform(0.0, 8.0)); }
-  Vector2d lattice() { return origin_ + Vector2d(die(5) * 2.0, die(5) * 2.0) + slip(0.004); }
+  Vector2d somewhere() {
+    return origin_ + test::drawn<2>([&] { return uniform(0.0, 8.0); });
+  }
+  Vector2d lattice() {
+    const Vector2d off = slip(0.004);
+    return origin_ + test::drawn<2>([&] { return die(5) * 2.0; }) + off;
+  }
   Segment earlier() {
     return walls_[static_cast<std::size_t>(die(static_cast<int>(walls_.size())))];
   }
   Vector2d on(const Segment& s) { return s.a + (s.b - s.a) * uniform(-0.2, 1.2); }
+  Vector2d beside(const Segment& s, double by) {
+    const Vector2d off = slip(by);
+    return on(s) + off;
+  }
 
   Segment next() {
     const Segment old = walls_.empty() ? Segment{somewhere(), somewhere()} : earlier();
@@ -46,13 +56,13 @@ class DirtyPlan {
       case 3:
         return {old.a + slip(0.006), old.b + slip(0.006)};  // beside itself
       case 4:
-        return {on(old) + slip(0.012), somewhere()};  // T with a gap
+        return {beside(old, 0.012), somewhere()};  // T with a gap
       case 5:
         return {old.b + slip(0.009), somewhere()};  // chain with gaps
       case 6:
         return {old.b, old.b + slip(0.03)};  // crumbs
       case 7:
-        return {on(old), on(old) + slip(0.004)};  // shallow crossing
+        return {on(old), beside(old, 0.004)};  // shallow crossing
       case 8:
         return {old.a, old.a};  // nothing
       default:
@@ -147,7 +157,7 @@ std::vector<Segment> uneven_plan() {
   std::uniform_real_distribution<double> length(0.05, 0.9);
   std::vector<Segment> raw;
   for (int i = 0; i < count; ++i) {
-    const Vector2d start(std::round(cluster(random)), std::round(cluster(random)));
+    const Vector2d start = test::drawn<2>([&] { return std::round(cluster(random)); });
     const double size = i % 37 == 0 ? 500.0 * length(random) : length(random);
     raw.push_back({start, start + unit_vector(cluster(random)) * size});
   }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "adit/map/hilbert.hpp"
+#include "support/draws.hpp"
 
 namespace adit {
 namespace {
@@ -17,8 +18,8 @@ std::vector<Segment> scattered(int count, std::uint64_t seed, int one_in_long) {
   std::uniform_real_distribution<double> step(-2.0, 2.0);
   std::vector<Segment> segments;
   for (int i = 0; i < count; ++i) {
-    const Vector2d from(place(random), place(random));
-    const Vector2d by(step(random), step(random));
+    const Vector2d from = test::drawn<2>([&] { return place(random); });
+    const Vector2d by = test::drawn<2>([&] { return step(random); });
     segments.push_back({from, from + (i % one_in_long == 0 ? 40.0 : 1.0) * by});
   }
   return segments;

@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "support/draws.hpp"
+
 namespace adit {
 namespace {
 
@@ -26,11 +28,11 @@ TEST(VertexGrid, nearest_is_what_brute_force_finds) {
   VertexGrid grid(0.01, 0);  // expects nothing: must grow
   for (int i = 0; i < 3000; ++i) grid.add({place(random), place(random)});
   for (int i = 0; i < 3000; i += 7) {
-    grid.move(i, grid.position(i) + Vector2d(slip(random), slip(random)));
+    grid.move(i, grid.position(i) + test::drawn<2>([&] { return slip(random); }));
   }
   int hits = 0;
   for (int i = 0; i < 2000; ++i) {
-    const Vector2d center(place(random), place(random));
+    const Vector2d center = test::drawn<2>([&] { return place(random); });
     const int except = i % 5 == 0 ? nearest_by_force(grid, center, 1.0, -1) : -1;
     const double radius = i % 2 == 0 ? 0.01 : 0.03;
     const int found = grid.nearest(center, radius, except);

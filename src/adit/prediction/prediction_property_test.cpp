@@ -9,6 +9,7 @@
 
 #include "adit/prediction/prediction.hpp"
 #include "support/casting.hpp"
+#include "support/draws.hpp"
 
 namespace adit {
 namespace {
@@ -31,8 +32,8 @@ std::vector<Segment> random_world(std::mt19937_64& random) {
   }
   const std::size_t loose = random() % 5;
   for (std::size_t i = 0; i < loose; ++i) {
-    const Vector2d a(place(random), place(random));
-    segments.push_back({a, a + Vector2d(size(random), size(random))});
+    const Vector2d a = test::drawn<2>([&] { return place(random); });
+    segments.push_back({a, a + test::drawn<2>([&] { return size(random); })});
   }
   return segments;
 }

@@ -88,9 +88,9 @@ bool is_open(const LineMap& map, const Vector2d& place) {
 Pose2 random_pose(const LineMap& map, Random& random) {
   const Box& box = map.bounds();
   for (;;) {
-    const Vector2d place(random.uniform(box.min.x(), box.max.x()),
-                         random.uniform(box.min.y(), box.max.y()));
-    if (is_open(map, place)) return {place.x(), place.y(), random.uniform(-kPi, kPi)};
+    const double y = random.uniform(box.min.y(), box.max.y());
+    const double x = random.uniform(box.min.x(), box.max.x());
+    if (is_open(map, {x, y})) return {x, y, random.uniform(-kPi, kPi)};
   }
 }
 
@@ -175,7 +175,7 @@ TEST_P(OfScans, APerfectScanHasNoResiduals) {
       const LaserScan scan = perfect_scan(map, pose, setting);
       residuals.set_scan(scan, scanner_of(setting));
       residuals.compute(map, pose, path_of(setting), {}, {});
-      ASSERT_GT(residuals.beams().size(), 0.9 * setting.beams);
+      ASSERT_GT(residuals.beams().size(), 0.95 * setting.beams);
       if (moves(setting)) {
         // From a station's middle the edges lie a little aside; the rest is the curve of the way.
         EXPECT_LT(share_off(residuals.beams(), 1e-3), 0.05);

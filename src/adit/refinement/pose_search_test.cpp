@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "adit/simulation/random.hpp"
+#include "support/draws.hpp"
 
 namespace adit {
 namespace {
@@ -51,7 +52,7 @@ TEST(PoseLattice, CoversAllThatIsWithinReach) {
     const Vector3d half = lattice.spread().diagonal().cwiseSqrt();
     const Vector3d reach = reach_of(lattice, kCentre) + half;
     for (int i = 0; i < 2000; ++i) {
-      const Vector3d inside(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+      const Vector3d inside = test::drawn<3>([&] { return random.uniform(-1, 1); });
       const Vector3d at = reach.cwiseProduct(inside);
       const bool covered =
           std::any_of(lattice.poses().begin(), lattice.poses().end(), [&](const Pose2& pose) {

@@ -57,8 +57,9 @@ bool is_open(const std::vector<Segment>& walls, const Vector2d& place) {
 
 Pose2 random_pose(const std::vector<Segment>& walls, Random& random) {
   for (;;) {
-    const Vector2d place(random.uniform(0.5, 20.0), random.uniform(0.3, 30.0));
-    if (is_open(walls, place)) return {place.x(), place.y(), random.uniform(-kPi, kPi)};
+    const double y = random.uniform(0.3, 30.0);
+    const double x = random.uniform(0.5, 20.0);
+    if (is_open(walls, {x, y})) return {x, y, random.uniform(-kPi, kPi)};
   }
 }
 
@@ -169,21 +170,17 @@ TEST(Refiner, FindsThePoseFromAfarWithThePapersScanner) {
   Scene scene;
   scene.range_sigma_m = 0.1;
   int converged = 0;
-  int found = 0;
   for (int trial = 0; trial < 300; ++trial) {
     const Pose2 truth = random_pose(scene.solid, random);
     const LaserScan scan = scan_from(truth, scene, random);
     const ScanFit& fit = fitting.fit_from(0.3, scan, truth, random);
     converged += fit.converged ? 1 : 0;
-    const bool is_found =
-        chi_square_of(fit, truth) < kFarBeyondChance && metres_apart(best(fit), truth) < 0.15;
-    found += is_found ? 1 : 0;
-    if (!is_found) continue;
-    EXPECT_GT(fit.counts.wall, 0.8 * 360);
+    EXPECT_LT(chi_square_of(fit, truth), kFarBeyondChance);
+    EXPECT_LT(metres_apart(best(fit), truth), 0.15);
+    EXPECT_GT(fit.counts.wall, 0.85 * 360);
     EXPECT_GT(fit.log_evidence, 0.7 * fit.expected_log_evidence);
   }
-  EXPECT_GE(converged, 293);
-  EXPECT_GE(found, 294);  // now and then a start so far off leads elsewhere
+  EXPECT_GE(converged, 295);
 }
 
 TEST(Refiner, AFitInAnotherPlaceDoesNotLookLikeOne) {
@@ -367,8 +364,9 @@ TEST(Refiner, FindsTheMostLikelyOfALattice) {
   for (int trial = 0; trial < 50; ++trial) {
     const Pose2 truth = random_pose(scene.solid, random);
     const LaserScan scan = scan_from(truth, scene, random);
-    const PoseWithCovariance prior = around(
-        moved_by(truth, random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), 0.05), 0.4, 0.1);
+    const double left = random.uniform(-0.5, 0.5);
+    const double ahead = random.uniform(-0.5, 0.5);
+    const PoseWithCovariance prior = around(moved_by(truth, ahead, left, 0.05), 0.4, 0.1);
     const PoseLattice lattice(prior, {});
     const Pose2 found = fitting.refiner().most_likely({fitting.map(), scan, model, kPerfect, {}},
                                                       prior, lattice.poses(), lattice.spread(), {});

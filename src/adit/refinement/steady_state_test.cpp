@@ -1,45 +1,12 @@
-// The fit must not allocate once its buffers have grown. Eigen has its memory from malloc, not from
-// operator new, so malloc is counted, where no sanitizer brings its own.
+// The fit must not allocate once its buffers have grown.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
 #include <vector>
 
 #include "adit/refinement/map_error.hpp"
 #include "adit/refinement/pose_search.hpp"
 #include "adit/refinement/refinement.hpp"
-
-#if defined(__SANITIZE_ADDRESS__)
-#define ADIT_SANITIZED 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(memory_sanitizer)
-#define ADIT_SANITIZED 1
-#endif
-#endif
-
-namespace {
-long allocations = 0;
-}  // namespace
-
-#if defined(__GLIBC__) && !defined(ADIT_SANITIZED)
-extern "C" {
-void* __libc_malloc(std::size_t size);
-
-void* malloc(std::size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
-}
-#else
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-#endif
+#include "support/allocations.hpp"
 
 namespace adit {
 namespace {
@@ -104,10 +71,10 @@ class Drive {
 TEST(SteadyState, RefinementAllocatesNothing) {
   Drive drive;
   drive.run();
-  const long before = allocations;
+  const long before = test::allocations();
   ASSERT_GT(before, 0);
   drive.run();
-  EXPECT_EQ(allocations, before);
+  EXPECT_EQ(test::allocations(), before);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "adit/simulation/random.hpp"
+#include "support/draws.hpp"
 
 namespace adit {
 namespace {
@@ -204,7 +205,7 @@ TEST(NormalEquations, AddUp) {
   NormalEquations<3> all;
   NormalEquations<3> halves[2];
   for (int i = 0; i < 10; ++i) {
-    const Vector3d gradient(random.normal(), random.normal(), random.normal());
+    const Vector3d gradient = test::drawn<3>([&] { return random.normal(); });
     const double residual = random.normal();
     all.add(gradient, residual, 0.5 + i);
     halves[i % 2].add(gradient, residual, 0.5 + i);

@@ -58,8 +58,9 @@ TEST(CastRay, TakesTheNearestWithinRange) {
 RC_GTEST_PROP(RayCaster, GivesTheNumbersOfBruteForce, (std::uint64_t seed)) {
   Random random(seed);
   const double extent = random.chance(0.5) ? 5.0 : 300.0;
-  const std::vector<Segment> segments =
-      draw_segments(random, random.below(120), extent, random.chance(0.5) ? 3.0 : 2.0 * extent);
+  const double longest = random.chance(0.5) ? 3.0 : 2.0 * extent;
+  const int count = random.below(120);
+  const std::vector<Segment> segments = draw_segments(random, count, extent, longest);
   const RayCaster caster(segments);
   for (int i = 0; i < 200; ++i) {
     const Vector2d origin = draw_point(random, 1.5 * extent);

@@ -10,6 +10,7 @@
 
 #include "adit/simulation/random.hpp"
 #include "adit/tracking/pose_tracker.hpp"
+#include "support/draws.hpp"
 
 namespace adit {
 namespace {
@@ -36,7 +37,7 @@ Matrix3d diagonal(double x, double y, double theta) {
 
 Vector3d draw(const Matrix3d& covariance, Random& random) {
   const Matrix3d root = covariance.llt().matrixL();
-  return root * Vector3d(random.normal(), random.normal(), random.normal());
+  return root * test::drawn<3>([&] { return random.normal(); });
 }
 
 double nees(const PoseWithCovariance& estimate, const Pose2& truth) {

@@ -98,7 +98,9 @@ TEST(PoseTracker, TheSameFixAgainAndAgainLeavesTheBias) {
   for (int world = 0; world < 100; ++world) {
     // Axes, skewed in any way, on which prediction, noise and bias are each independent.
     const Matrix3d axes = random_covariance(random, 1.0).llt().matrixL();
-    const Vector3d bias_share = 0.05 * Vector3d(random.uniform(), random.uniform(), 1.0);
+    const double share_y = random.uniform();
+    const double share_x = random.uniform();
+    const Vector3d bias_share = 0.05 * Vector3d(share_x, share_y, 1.0);
     const Matrix3d prior = axes * axes.transpose();
     const Matrix3d bias = axes * bias_share.asDiagonal() * axes.transpose();
     const Matrix3d noise = 0.3 * random.uniform() * bias;
@@ -262,7 +264,10 @@ TEST(PoseTracker, TheCovarianceStaysOneOverTenThousandSteps) {
   for (int i = 0; i < 10000; ++i) {
     const Pose2 move{random.normal(), 0.1 * random.normal(), random.normal()};
     tracker.predict(move, random.chance(0.1) ? kNoNoise : OdometryNoise{}, {});
-    if (random.chance(0.01)) tracker.blur(random.uniform(), 0.3 * random.uniform());
+    if (random.chance(0.01)) {
+      const double turn = 0.3 * random.uniform();
+      tracker.blur(random.uniform(), turn);
+    }
     if (random.chance(0.3)) continue;
     const Matrix3d noise = random_covariance(random, std::pow(10.0, random.uniform(-4.0, 0.0)));
     const Matrix3d bias = random_covariance(random, std::pow(10.0, random.uniform(-4.0, 0.0)));

@@ -155,7 +155,8 @@ TEST(ProtectionLevel, IsExceededNoMoreOftenThanStated) {
     const int wrong = random.below(walls);
     for (int wall = 0; wall < walls; ++wall) {
       const double off = wall == wrong ? random.uniform(-1.5, 1.5) : 0.0;
-      room.add_wall(random.uniform(-kPi, kPi), off + Room::kSigma * random.normal());
+      const double noise = Room::kSigma * random.normal();
+      room.add_wall(random.uniform(-kPi, kPi), off + noise);
     }
     exceeded += room.error() > room.level(options) ? 1 : 0;
   }

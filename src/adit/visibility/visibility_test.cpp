@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "support/casting.hpp"
+#include "support/draws.hpp"
 
 namespace adit {
 namespace {
@@ -134,7 +135,7 @@ TEST(Visibility, TurnedGridWorldsLikeCasting) {
     for (Segment& s : segments) s = {turned * s.a, turned * s.b};
     Sight sight;
     sight.map = map_of(segments);
-    sight.observer = turned * Vector2d(random() % 7, random() % 7);
+    sight.observer = turned * test::drawn<2>([&] { return static_cast<double>(random() % 7); });
     sight.max_range = awkward_range(random);
     SCOPED_TRACE(world);
     // On a wall up to rounding: casting cannot tell on which side it stands.
@@ -152,8 +153,8 @@ TEST(Visibility, RandomWorldsLikeCasting) {
     std::vector<Segment> segments;
     const std::size_t count = random() % 60;
     for (std::size_t i = 0; i < count; ++i) {
-      const Vector2d a(any(random), any(random));
-      segments.push_back({a, a + 0.3 * Vector2d(any(random) - 10.0, any(random) - 10.0)});
+      const Vector2d a = test::drawn<2>([&] { return any(random); });
+      segments.push_back({a, a + 0.3 * test::drawn<2>([&] { return any(random) - 10.0; })});
     }
     Sight sight;
     sight.map = map_of(segments);
