@@ -52,6 +52,11 @@ struct Configuration {
     table("stamps", self.localizer.stamps, "what is odd in the order of scans");
     table("protection", self.localizer.protection, "how far off a trusted pose may be");
     table("localizer", self.localizer.localizer, "the start, and what holds between two scans");
+    table("recovery", self.localizer.recovery, "when a lost pose is looked for in the whole mine");
+    table("hypotheses", self.localizer.hypotheses, "which of several poses is believed, and when");
+    table("places", self.localizer.places, "the index of places where a scanner may stand");
+    table("relocation", self.localizer.relocation, "how a scan is looked for in the whole mine");
+    table("likelihood", self.localizer.likelihood, "what a scan says of a pose found there");
   }
 };
 

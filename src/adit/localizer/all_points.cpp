@@ -7,15 +7,15 @@
 #include <limits>
 #include <utility>
 
-#include "adit/localizer/fit_quality.hpp"
 #include "adit/localizer/localizer.hpp"
+#include "adit/relocation/fit_quality.hpp"
 
 namespace adit {
 
 /// All points of the scan against the map, from where the features say or, without them, from the
 /// prediction.
 void Localizer::refine_pose(const LaserScan& scan) {
-  if (!uses_points()) return;
+  if (!uses_points() || is_anywhere_) return;
   const RefinementInput input{map_, scan, scanner_, map_error_.error(), motion_};
   std::optional<ScanFit> rival_fit;
   PoseWithCovariance start{predicted_.pose, floored(predicted_.covariance)};

@@ -1,6 +1,7 @@
 #include "adit/localizer/localizer.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace adit {
 
@@ -12,7 +13,9 @@ const Estimate& Localizer::turn(const LaserScan& scan,
   deskew_scan(scan);
   if (wants_features()) find_by_features();
   refine_pose(scan);
+  weigh_hypotheses(scan);
   track_pose();
+  seek_elsewhere(scan);
   judge(scan.stamp);
   return estimate_;
 }
@@ -63,8 +66,9 @@ const Estimate& Localizer::skip(double stamp) {
   return estimate_;
 }
 
-Localizer::Localizer(const LineMap& map, const LocalizerSettings& settings)
-    : map_(map), settings_(settings), map_error_(settings.map) {
+Localizer::Localizer(const LineMap& map, const LocalizerSettings& settings,
+                     std::shared_ptr<const PlaceIndex> places)
+    : map_(map), settings_(settings), map_error_(settings.map), finder_(map, std::move(places)) {
   start(Pose2{});
 }
 
@@ -73,9 +77,21 @@ void Localizer::start(const Pose2& map_from_vehicle, const std::optional<Matrix3
   const double metres = settings_.localizer.start_sigma_m;
   const double radians = settings_.localizer.start_sigma_rad;
   const Vector3d variance(metres * metres, metres * metres, radians * radians);
+  forget();
   tracker_.start({map_from_vehicle, covariance.value_or(Matrix3d(variance.asDiagonal()))});
+  estimate_.pose = tracker_.estimate().pose;
+  estimate_.covariance = tracker_.estimate().covariance;
+}
+
+void Localizer::start_anywhere() {
+  start(Pose2{});
+  is_anywhere_ = true;
+  estimate_.covariance = unknown_covariance();
+}
+
+void Localizer::forget() {
   map_error_ = MapErrorEstimator(settings_.map);
-  first_map_error_ = FirstMapError{};
+  first_map_error_.reset();
   stamps_.reset();
   odometry_.clear();
   gyro_.clear();
@@ -84,9 +100,11 @@ void Localizer::start(const Pose2& map_from_vehicle, const std::optional<Matrix3
   trust_.reset();
   clear_ = true;
   rival_.reset();
+  finder_.abandon();
+  hypotheses_.clear();
+  is_anywhere_ = false;
+  scans_to_wait_ = 0;
   estimate_ = Estimate{};
-  estimate_.pose = tracker_.estimate().pose;
-  estimate_.covariance = tracker_.estimate().covariance;
 }
 
 void Localizer::add_odometry(const StampedPose& odom_from_vehicle) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -8,6 +9,8 @@
 #include "adit/localizer/timings.hpp"
 #include "adit/map/line_map.hpp"
 #include "adit/motion/pose_history.hpp"
+#include "adit/recovery/hypotheses.hpp"
+#include "adit/recovery/place_finder.hpp"
 #include "adit/refinement/refinement.hpp"
 #include "adit/scan/laser_scan.hpp"
 #include "adit/tracking/estimate.hpp"
@@ -18,12 +21,16 @@ namespace adit {
 
 /// The paper's cycle (Fig. 1): scan after scan, where the vehicle is in the map.
 ///
-/// Deterministic: the same calls give the same bits. After the first scans it allocates nothing.
-/// The map must outlive the localizer.
+/// Deterministic: the same calls give the same bits. After the first scans it allocates nothing,
+/// unless it is lost. The map must outlive the localizer.
 class Localizer {
  public:
-  Localizer(const LineMap& map, const LocalizerSettings& settings);
-  Localizer(LineMap&& map, const LocalizerSettings& settings) = delete;
+  /// With an index of the map's places a lost pose is looked for at once; without one, the first
+  /// search makes it.
+  Localizer(const LineMap& map, const LocalizerSettings& settings,
+            std::shared_ptr<const PlaceIndex> places = nullptr);
+  Localizer(LineMap&& map, const LocalizerSettings& settings,
+            std::shared_ptr<const PlaceIndex> places = nullptr) = delete;
   Localizer(const Localizer&) = delete;  // estimates view its buffers
   Localizer& operator=(const Localizer&) = delete;
   ~Localizer() = default;
@@ -32,6 +39,10 @@ class Localizer {
   /// Forgets all else, what was fed as well. A start that is not finite is ignored.
   void start(const Pose2& map_from_vehicle,
              const std::optional<Matrix3d>& covariance = std::nullopt);
+
+  /// The vehicle may be anywhere in the mine: the next scan is looked for in all of it. `lost`
+  /// until something is found, `ambiguous` while several poses explain the scans.
+  void start_anywhere();
 
   /// Feeds dead reckoning: stamped poses in the odometry's frame, of which only differences count.
   void add_odometry(const StampedPose& odom_from_vehicle);
@@ -60,6 +71,8 @@ class Localizer {
   const ScanFit& scan_fit() const { return scan_fit_; }
   const Refiner& refiner() const { return refiner_; }
   const MapError& map_error() const { return map_error_.error(); }
+  /// The poses of which any may be the true one; none unless the pose was lost.
+  const Hypotheses& hypotheses() const { return hypotheses_; }
   const StampCounts& stamp_counts() const { return stamps_.counts(); }
   const Visibility& visibility() const { return visibility_; }
   const Extractor& extractor() const { return extractor_; }
@@ -73,7 +86,7 @@ class Localizer {
   bool is_repeated(const LaserScan& scan, const std::optional<Pose2>& odom_from_vehicle);
   void find_by_features();
 
-  // The stages: stages.cpp, and all_points.cpp for `refine_pose`.
+  // The stages: stages.cpp, all_points.cpp for `refine_pose`, and elsewhere.cpp for hypotheses.
   void begin_turn();
   void predict_pose(double stamp, const std::optional<Pose2>& odom_from_vehicle);
   void deskew_scan(const LaserScan& scan);
@@ -86,6 +99,8 @@ class Localizer {
   void match_features();
   void estimate_pose();
   void refine_pose(const LaserScan& scan);
+  void weigh_hypotheses(const LaserScan& scan);
+  void seek_elsewhere(const LaserScan& scan);
   void track_pose();
   void learn_map_error();
   void judge(double stamp);
@@ -105,6 +120,11 @@ class Localizer {
   bool reconciled() const;
   void change_places(const RefinementInput& input);
   void weigh_rival(const RefinementInput& input, const ScanFit& rival_fit);
+  void forget();
+  RelocationQuery query_for(const LaserScan& scan) const;
+  PlaceFinderOptions finder_options() const;
+  void take_search();
+  void follow(const Hypotheses::Hypothesis& hypothesis, const RefinementInput& input);
   Matrix3d floored(const Matrix3d& covariance) const;
   Matrix3d shared_map_error() const;
 
@@ -132,6 +152,13 @@ class Localizer {
   bool clear_ = true;   // the map explained nearly all of it
   double way_m_ = 0.0;  // since the last scan, by dead reckoning
   std::optional<Rival> rival_;
+
+  // While the pose is lost.
+  PlaceFinder finder_;
+  Hypotheses hypotheses_;
+  PoseTracker since_search_;  // dead reckoning from where the scan that is looked for was taken
+  bool is_anywhere_ = false;  // nothing is known of the pose
+  int scans_to_wait_ = 0;     // for the search's answer, or for the next search
 
   // Of this turn.
   PoseWithCovariance predicted_;

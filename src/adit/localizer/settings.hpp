@@ -9,6 +9,8 @@
 #include "adit/matching/matching.hpp"
 #include "adit/motion/odometry.hpp"
 #include "adit/prediction/prediction.hpp"
+#include "adit/recovery/hypotheses.hpp"
+#include "adit/recovery/place_finder.hpp"
 #include "adit/refinement/displacement.hpp"
 #include "adit/refinement/map_error.hpp"
 #include "adit/refinement/options.hpp"
@@ -73,6 +75,24 @@ struct LocalizerOptions {
   }
 };
 
+/// When a lost pose is looked for in the whole mine.
+struct RecoveryOptions {
+  bool searches = true;
+  int scans_for_search = 2;
+  int scans_between = 5;
+
+  template <class Self, class Field>
+  static void visit(Self& self, Field&& field) {
+    field("searches", self.searches,
+          "a pose that a scan contradicts is looked for in the whole mine");
+    field("scans_for_search", self.scans_for_search,
+          "the search runs beside the cycle; its answer is taken so many scans after the one that "
+          "was looked for, no sooner and no later, so that a replay gives the same");
+    field("scans_between", self.scans_between,
+          "after a search that found nothing, so many scans pass before the next");
+  }
+};
+
 /// When a feature estimate is believed.
 struct BeliefOptions {
   double gate_chi_square = 60.0;
@@ -130,6 +150,11 @@ struct LocalizerSettings {
   StampOptions stamps;
   ProtectionOptions protection;
   LocalizerOptions localizer;
+  RecoveryOptions recovery;
+  HypothesesOptions hypotheses;
+  PlaceIndexOptions places;
+  RelocationOptions relocation;
+  LikelihoodOptions likelihood;
 
   const ScannerModel& scanner_of(const LaserScan& scan) const {
     const std::size_t other = static_cast<std::size_t>(scan.scanner) - 1;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adit/localizer/fit_quality.hpp"
 #include "adit/localizer/localizer.hpp"
+#include "adit/relocation/fit_quality.hpp"
 
 namespace adit {
 
@@ -47,6 +47,8 @@ void Localizer::predict_pose(double stamp, const std::optional<Pose2>& odom_from
 void Localizer::dead_reckon_by(const Pose2& move, const OdometryNoise& noise) {
   way_m_ = move.translation().norm();
   tracker_.predict(move, noise, settings_.tracking);
+  hypotheses_.predict(move, noise, settings_.tracking);
+  since_search_.predict(move, noise, settings_.tracking);
   if (!rival_) return;
   rival_->tracker.predict(move, noise, settings_.tracking);
   rival_->way_m += way_m_;
@@ -60,6 +62,8 @@ void Localizer::wait(bool knows_turn) {
   const double metres = seconds * options.unknown_speed_m_per_s;
   const double radians = knows_turn ? 0.0 : seconds * options.unknown_turn_rate_rad_per_s;
   tracker_.blur(metres, radians);
+  hypotheses_.blur(metres, radians);
+  since_search_.blur(metres, radians);
   if (rival_) rival_->tracker.blur(metres, radians);
 }
 
@@ -83,6 +87,7 @@ void Localizer::deskew_scan(const LaserScan& scan) {
 bool Localizer::wants_features() const {
   const LocalizerOptions& options = settings_.localizer;
   if (settings_.estimator != Estimator::full) return settings_.estimator == Estimator::features;
+  if (is_anywhere_) return false;
   const Matrix3d& covariance = predicted_.covariance;
   const double metres = options.features_sigma_m;
   const double radians = options.features_sigma_rad;
@@ -177,6 +182,7 @@ PoseWithCovariance Localizer::vehicle_by_features() const {
 /// The estimate, from scan and dead reckoning, if the scan explains itself there.
 void Localizer::track_pose() {
   const Stopwatch watch(timings_.tracking);
+  if (is_anywhere_) return;
   if (!uses_points()) {
     believed_ = contributed_ = features_are_believable();
     if (believed_) tracker_.start(vehicle_by_features());
@@ -187,7 +193,7 @@ void Localizer::track_pose() {
   FitQuality quality = quality_of(scan_fit_);
   quality.agrees = tracker_.chi_square(fix) < gate;
   clear_ = quality.evidence_ratio > settings_.localizer.clear_evidence_ratio;
-  believed_ = trust_.next(quality, way_m_, settings_.status);
+  believed_ = trust_.next(quality, way_m_, settings_.status) && hypotheses_.empty();
   // What is not trusted may still be the truth: all that explains its scan is taken in.
   const bool helps = quality.converged && quality.agrees &&
                      quality.evidence_ratio > settings_.status.used_evidence_ratio;
@@ -232,6 +238,8 @@ void Localizer::judge(double stamp) {
   estimate_.covariance = tracker_.estimate().covariance;
   if (!uses_points()) estimate_.covariance += shared_map_error();
   estimate_.dead_reckoned = !contributed_;
+  if (is_anywhere_) estimate_.covariance = unknown_covariance();
+  if (!hypotheses_.empty() && contributed_) estimate_.status = Status::ambiguous;
   if (!believed_) return;
   estimate_.status = Status::ok;
   estimate_.chi_square = fit_.chi_square;

@@ -59,6 +59,11 @@ struct MapErrorOptions {
 class FirstMapError {
  public:
   bool is_open() const { return scans_ < kScans; }
+  /// Forgets the scans but keeps the memory.
+  void reset() {
+    scans_ = 0;
+    variances_ = 0.0;
+  }
   void add(std::span<const BeamResidual> beams, const ScannerModel& scanner);
   /// Mean over the scans so far (m), generous: from too much, learning finds down by itself.
   double sigma_m() const { return scans_ > 0 ? kGenerous * std::sqrt(variances_ / scans_) : 0.0; }

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace adit {
 namespace {
@@ -40,6 +41,10 @@ double axis_gain(double noise, double bias, double fix_noise, double fix_bias) {
 Matrix3d fix_covariance(const Matrix3d& information) {
   const Vector3d least = kUnobserved.cwiseAbs2().cwiseInverse();
   return (information + Matrix3d(least.asDiagonal())).inverse();
+}
+
+Matrix3d unknown_covariance() {
+  return Vector3d::Constant(std::numeric_limits<double>::infinity()).asDiagonal();
 }
 
 void PoseTracker::blur(double metres, double radians) {

@@ -37,6 +37,9 @@ struct PoseObservation {
 /// Covariance of the pose that an observation gives alone; very large where it sees nothing.
 Matrix3d fix_covariance(const Matrix3d& information);
 
+/// Of a pose of which nothing is known.
+Matrix3d unknown_covariance();
+
 /// A filter over the pose that does not take the map's errors for noise.
 ///
 /// The plan's errors that one scan sees are seen again by the next, from almost the same place. A

@@ -17,13 +17,13 @@ bool explains(const FitQuality& quality, const StatusOptions& options) {
 bool Trust::next(const FitQuality& quality, double way_m, const StatusOptions& options) {
   if (quality.returns < options.fewest_returns) return false;
   const bool agrees = quality.agrees || quality.evidence_ratio > options.regain_evidence_ratio;
-  if (!agrees || !explains(quality, options)) {
+  if (!agrees || !explains(quality, options) || is_sudden(quality, options)) {
     contradicted_ = true;
     regained_m_ = 0.0;
     return false;
   }
   if (!contradicted_) {
-    note_usual(quality.evidence_ratio);
+    note_usual(quality);
     return true;
   }
   const double asked = scans_ > 0.0 ? usual_ - options.regain_slack : options.regain_evidence_ratio;
@@ -33,10 +33,19 @@ bool Trust::next(const FitQuality& quality, double way_m, const StatusOptions& o
   return !contradicted_;
 }
 
-void Trust::note_usual(double evidence_ratio) {
+void Trust::note_usual(const FitQuality& quality) {
   constexpr double kMostScans = 100.0;
   scans_ = std::min(scans_ + 1.0, kMostScans);
-  usual_ += (evidence_ratio - usual_) / scans_;
+  usual_ += (quality.evidence_ratio - usual_) / scans_;
+  usual_behind_ += (quality.behind_ratio - usual_behind_) / scans_;
+}
+
+/// Whether the vehicle seems to have been carried off: from one scan to the next the map explains
+/// less, and rock is seen through.
+bool Trust::is_sudden(const FitQuality& quality, const StatusOptions& options) const {
+  return !contradicted_ && scans_ >= options.usual_scans &&
+         usual_ - quality.evidence_ratio > options.sudden_evidence_ratio &&
+         quality.behind_ratio - usual_behind_ > options.sudden_behind_ratio;
 }
 
 std::optional<Vector2d> open_direction(const Matrix3d& fix_covariance,

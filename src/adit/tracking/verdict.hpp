@@ -27,6 +27,9 @@ struct StatusOptions {
   double rival_evidence_ratio = 0.6;
   double reconciled_chi_square = 6.25;
   double jump_chi_square = 30.0;
+  double sudden_evidence_ratio = 0.15;
+  double sudden_behind_ratio = 0.02;
+  double usual_scans = 4.0;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -73,6 +76,12 @@ struct StatusOptions {
     field("jump_chi_square", self.jump_chi_square,
           "a scan farther than this from dead reckoning, far beyond chance, says that the vehicle "
           "is elsewhere: ambiguous until the next");
+    field("sudden_evidence_ratio", self.sudden_evidence_ratio,
+          "a scan that is explained less well than is usual here by this ...");
+    field("sudden_behind_ratio", self.sudden_behind_ratio,
+          "... and of which more than usual by this comes from behind the map's walls contradicts "
+          "the pose: what stands in the way makes no beam longer");
+    field("usual_scans", self.usual_scans, "what is usual is known after so many scans");
   }
 };
 
@@ -96,14 +105,18 @@ class Trust {
   /// Of a fit that disagrees with dead reckoning more is asked than to explain the scan.
   bool next(const FitQuality& quality, double way_m, const StatusOptions& options);
   void reset() { *this = Trust{}; }
+  /// Something else than a scan speaks against the pose.
+  void doubt() { contradicted_ = true; }
   /// Whether a scan contradicted the pose and it has not been regained since.
   bool contradicted() const { return contradicted_; }
 
  private:
-  void note_usual(double evidence_ratio);
+  void note_usual(const FitQuality& quality);
+  bool is_sudden(const FitQuality& quality, const StatusOptions& options) const;
 
   bool contradicted_ = false;
-  double usual_ = 0.0;  // evidence ratio while trusted, of so many scans, a sliding mean
+  double usual_ = 0.0;         // evidence ratio while trusted, of so many scans, a sliding mean
+  double usual_behind_ = 0.0;  // the same of the returns behind the map's walls
   double scans_ = 0.0;
   double regained_m_ = 0.0;
 };

@@ -1,4 +1,4 @@
-#include "adit/localizer/fit_quality.hpp"
+#include "adit/relocation/fit_quality.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>

@@ -1,0 +1,190 @@
+#include "locate_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adit/io/carmen.hpp"
+#include "adit/io/plan.hpp"
+#include "adit/io/trajectory.hpp"
+#include "adit/simulation/clutter.hpp"
+#include "adit/simulation/random.hpp"
+
+namespace adit {
+namespace {
+
+// Streams of the seed.
+constexpr std::uint64_t kNoise = 41;
+constexpr std::uint64_t kPlaces = 42;
+
+constexpr double kPitch = 20.0;   // from pillar to pillar (m)
+constexpr double kEntry = 6.0;    // width of the openings (m)
+constexpr double kNearby = 25.0;  // farther walls are not in the way of clutter (m)
+
+/// Takes scans in a mine, each with clutter of its own.
+class Surveyor {
+ public:
+  Surveyor(std::vector<Segment> walls, const ScannerSpec& spec, const LocateOptions& options)
+      : walls_(std::move(walls)), caster_(walls_), spec_(spec), options_(options) {}
+
+  LaserScan scan_at(const Pose2& pose, std::size_t number) const {
+    World world;
+    world.path = {pose};
+    for (const Segment& wall : walls_) {
+      if (distance(wall, pose.translation()) < kNearby) world.walls.push_back(wall);
+    }
+    const std::uint64_t seed = options_.seed * 1000003u + number;
+    add_clutter(world, clutter_of(options_.clutter), seed);
+    Random noise(seed, kNoise);
+    return simulate_scan(caster_, pose, spec_, noise, world.clutter);
+  }
+
+ private:
+  std::vector<Segment> walls_;
+  RayCaster caster_;
+  ScannerSpec spec_;
+  const LocateOptions& options_;
+};
+
+/// A panel of side * side pillars in an outline; `variation_m` moves their sides.
+std::vector<Segment> panel_plan(int side, double variation_m, std::uint64_t seed) {
+  Random random(seed, kPlaces);
+  const double size = side * kPitch + kEntry;
+  const auto box = [](double x0, double y0, double x1, double y1, std::vector<Segment>& out) {
+    const std::vector<Vector2d> corners{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+    const std::vector<Segment> sides = outline(corners);
+    out.insert(out.end(), sides.begin(), sides.end());
+  };
+  std::vector<Segment> plan;
+  box(0.0, 0.0, size, size, plan);
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      const auto vary = [&] { return variation_m * random.uniform(-1.0, 1.0); };
+      const double x = column * kPitch + kEntry;
+      const double y = row * kPitch + kEntry;
+      const double far = kPitch - kEntry;
+      const double left = x + vary();
+      const double low = y + vary();
+      box(left, low, x + far + vary(), y + far + vary(), plan);
+    }
+  }
+  return plan;
+}
+
+/// Places in the openings of a panel, a metre and a half clear of its pillars.
+std::vector<Pose2> places_in_panel(int side, int count, std::uint64_t seed) {
+  Random random(seed, kPlaces + 1);
+  std::vector<Pose2> places;
+  while (static_cast<int>(places.size()) < count) {
+    const int line = random.below(side + 1);
+    const double across = line * kPitch + random.uniform(1.5, kEntry - 1.5);
+    const double along = random.uniform(1.5, side * kPitch + kEntry - 1.5);
+    const double heading = random.uniform(-kPi, kPi);
+    places.push_back(random.chance(0.5) ? Pose2{across, along, heading}
+                                        : Pose2{along, across, heading});
+  }
+  return places;
+}
+
+std::string mine(const LocateOptions& options, const std::string& name) {
+  return options.data + "/mines/" + name;
+}
+
+Result<std::vector<Pose2>> poses_of(const LocateOptions& options, const std::string& plan) {
+  const auto read = read_trajectory(mine(options, plan + "_poses.tum"));
+  if (!read) return tl::unexpected(read.error());
+  std::vector<Pose2> poses;
+  for (const StampedPose& stamped : *read) poses.push_back(stamped.pose);
+  const auto most = static_cast<std::size_t>(std::max(1, options.count));
+  if (poses.size() > most) poses.resize(most);
+  return poses;
+}
+
+/// Scans of the mine `taken_in`, sought in the plan `sought_in`.
+Result<LocateScene> mine_scene(const LocateOptions& options, const ScannerSpec& spec,
+                               const std::string& taken_in, const std::string& sought_in) {
+  const auto walls = read_plan(mine(options, taken_in + ".csv"));
+  if (!walls) return tl::unexpected(walls.error());
+  const auto plan = read_plan(mine(options, sought_in + ".csv"));
+  if (!plan) return tl::unexpected(plan.error());
+  const auto poses = poses_of(options, taken_in);
+  if (!poses) return tl::unexpected(poses.error());
+  LocateScene scene;
+  scene.map = LineMap::build(plan->segments);
+  const Surveyor surveyor(walls->segments, spec, options);
+  for (std::size_t i = 0; i < poses->size(); ++i) {
+    const Pose2& pose = (*poses)[i];
+    const bool inside = taken_in == sought_in;
+    scene.cases.push_back({surveyor.scan_at(pose, i), inside ? std::optional(pose) : std::nullopt});
+  }
+  return scene;
+}
+
+LocateScene panel_scene(const LocateOptions& options, const ScannerSpec& spec, double variation_m) {
+  const std::vector<Segment> plan = panel_plan(options.side, variation_m, options.seed);
+  LocateScene scene;
+  scene.map = LineMap::build(plan);
+  const Surveyor surveyor(plan, spec, options);
+  const std::vector<Pose2> places = places_in_panel(options.side, options.count, options.seed);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    scene.cases.push_back({surveyor.scan_at(places[i], i), places[i]});
+  }
+  return scene;
+}
+
+/// Scans of a real log that have a reference pose, drawn at random.
+Result<LocateScene> log_scene(const LocateOptions& options) {
+  constexpr double kSameStamp = 1e-3;  // s
+  const auto plan = read_plan(options.data + "/intel/map.csv");
+  if (!plan) return tl::unexpected(plan.error());
+  const auto log = read_log(options.data + "/intel/log.clf");
+  if (!log) return tl::unexpected(log.error());
+  const auto reference = read_trajectory(options.data + "/intel/reference.tum");
+  if (!reference) return tl::unexpected(reference.error());
+  std::vector<LocateCase> known;
+  for (const LogScan& entry : log->scans) {
+    const auto same =
+        std::find_if(reference->begin(), reference->end(), [&](const StampedPose& pose) {
+          return std::abs(pose.stamp - entry.scan.stamp) < kSameStamp;
+        });
+    if (same != reference->end()) known.push_back({entry.scan, same->pose});
+  }
+  LocateScene scene;
+  scene.map = LineMap::build(plan->segments);
+  scene.scanner = sick_lms().model;
+  scene.scanner.max_range_m = log->summary.lasers.front().max_range;
+  Random random(options.seed, kPlaces);
+  for (int i = 0; i < options.count && !known.empty(); ++i) {
+    const auto drawn = static_cast<std::size_t>(random.below(static_cast<int>(known.size())));
+    scene.cases.push_back(known[drawn]);
+    known.erase(known.begin() + static_cast<std::ptrdiff_t>(drawn));
+  }
+  return scene;
+}
+
+Result<LocateScene> scene_of(const LocateOptions& options, const ScannerSpec& spec) {
+  if (options.plan == "niosh" || options.plan == "edgar") {
+    return mine_scene(options, spec, options.plan, options.plan);
+  }
+  if (options.plan == "outside") return mine_scene(options, spec, "edgar", "niosh");
+  if (options.plan == "outside_niosh") return mine_scene(options, spec, "niosh", "edgar");
+  if (options.plan == "regular") return panel_scene(options, spec, 0.0);
+  if (options.plan == "big") return panel_scene(options, spec, 0.5);
+  if (options.plan == "intel") return log_scene(options);
+  return fail("'" + options.plan + "': no such plan");
+}
+
+}  // namespace
+
+Result<LocateScene> make_locate_scene(const LocateOptions& options) {
+  const auto spec = scanner_named(options.scanner);
+  if (!spec) return fail("'" + options.scanner + "': no such scanner");
+  auto scene = scene_of(options, *spec);
+  if (!scene) return scene;
+  if (options.plan != "intel") scene->scanner = spec->model;
+  MapErrorOptions error;
+  error.sigma_m = options.map_sigma;
+  scene->map_error = MapErrorEstimator(error).error();
+  return scene;
+}
+
+}  // namespace adit

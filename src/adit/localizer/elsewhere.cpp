@@ -1,0 +1,89 @@
+// Where the pose is lost: the search in the whole mine, and the hypotheses that it leaves.
+
+#include "adit/localizer/localizer.hpp"
+#include "adit/relocation/fit_quality.hpp"
+
+namespace adit {
+namespace {
+
+/// A covariance over (x, y, theta) in other axes.
+Matrix3d turned(const Matrix3d& covariance, double by) {
+  Matrix3d turn = Matrix3d::Identity();
+  turn.col(0).head<2>() = unit_vector(by);
+  turn.col(1).head<2>() = perpendicular(unit_vector(by));
+  return turn * covariance * turn.transpose();
+}
+
+}  // namespace
+
+PlaceFinderOptions Localizer::finder_options() const {
+  return {settings_.places, settings_.relocation, settings_.likelihood, settings_.status};
+}
+
+RelocationQuery Localizer::query_for(const LaserScan& scan) const {
+  return {scan, scanner_, map_error_.error(), motion_, std::nullopt};
+}
+
+/// Every pose that may be the true one is held against the scan; one of them is the estimate.
+void Localizer::weigh_hypotheses(const LaserScan& scan) {
+  if (finder_.is_searching() && --scans_to_wait_ <= 0) take_search();
+  if (hypotheses_.empty()) return;
+  const Stopwatch watch(timings_.search);
+  const RefinementInput input{map_, scan, scanner_, map_error_.error(), motion_};
+  hypotheses_.weigh({input, way_m_, settings_.refinement, settings_.tracking, settings_.status},
+                    settings_.hypotheses);
+  if (hypotheses_.empty()) return;
+  const bool is_decided = hypotheses_.is_decided(settings_.hypotheses);
+  follow(is_decided ? hypotheses_.all().front() : hypotheses_.leader(), input);
+  if (hypotheses_.is_hopeless()) {
+    hypotheses_.clear();
+    scans_to_wait_ = settings_.recovery.scans_between;
+  }
+  if (!is_decided) return;
+  hypotheses_.clear();
+  trust_.reset();
+  ambiguous_ = false;
+}
+
+/// Takes what the search found, carried on to this scan by dead reckoning, and beside it the pose
+/// that dead reckoning alone has kept.
+void Localizer::take_search() {
+  const RelocationResult found = finder_.take();
+  for (const RankedPose& pose : found.poses) {
+    const bool serves = found.verdict != Status::lost && explains(pose.quality, settings_.status);
+    if (!serves) continue;
+    const PoseWithCovariance& way = since_search_.estimate();
+    PoseWithCovariance here = carry({pose.pose, pose.covariance}, way.pose);
+    here.covariance += turned(way.covariance, pose.pose.theta);
+    hypotheses_.add(here, settings_.hypotheses);
+  }
+  if (hypotheses_.empty()) {
+    scans_to_wait_ = settings_.recovery.scans_between;
+  } else if (!is_anywhere_) {
+    hypotheses_.add_own(tracker_, settings_.hypotheses);
+  }
+}
+
+/// The estimate becomes this hypothesis, as it was before this scan.
+void Localizer::follow(const Hypotheses::Hypothesis& hypothesis, const RefinementInput& input) {
+  is_anywhere_ = false;
+  rival_.reset();
+  tracker_ = hypothesis.predicted;
+  predicted_ = tracker_.estimate();
+  scan_fit_ = refine_from(input, {predicted_.pose, floored(predicted_.covariance)});
+  ambiguous_ = true;
+  trust_.doubt();
+}
+
+/// Begins the search for a scan that contradicts the pose.
+void Localizer::seek_elsewhere(const LaserScan& scan) {
+  const bool is_lost = is_anywhere_ || trust_.contradicted();
+  if (!is_lost || !uses_points() || !settings_.recovery.searches) return;
+  if (!hypotheses_.empty() || finder_.is_searching() || --scans_to_wait_ > 0) return;
+  if (scan_fit_.counts.returns() < settings_.status.fewest_returns && !is_anywhere_) return;
+  finder_.begin(query_for(scan), finder_options());
+  scans_to_wait_ = settings_.recovery.scans_for_search;
+  since_search_.start({});
+}
+
+}  // namespace adit

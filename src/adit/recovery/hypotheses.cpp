@@ -1,0 +1,160 @@
+#include "adit/recovery/hypotheses.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "adit/relocation/fit_quality.hpp"
+
+namespace adit {
+namespace {
+
+// A fit may begin no surer than this of where it is (m, rad).
+constexpr double kFloor = 0.1;
+constexpr double kFloorRad = 0.02;
+
+PoseWithCovariance loosened(const PoseWithCovariance& pose) {
+  PoseWithCovariance out = pose;
+  out.covariance.diagonal() += Vector3d(kFloor, kFloor, kFloorRad).cwiseAbs2();
+  return out;
+}
+
+bool are_one(const Pose2& a, const Pose2& b, const HypothesesOptions& options) {
+  const Vector3d apart = difference(a, b);
+  return apart.head<2>().norm() < options.same_place_m &&
+         std::abs(apart.z()) < options.same_heading_rad;
+}
+
+}  // namespace
+
+void Hypotheses::add_own(const PoseTracker& tracker, const HypothesesOptions& options) {
+  std::erase_if(all_, [&](const Hypothesis& known) {
+    return are_one(known.tracker.estimate().pose, tracker.estimate().pose, options);
+  });
+  Hypothesis& own = all_.emplace_back();
+  own.tracker = own.predicted = tracker;
+  own.log_odds = options.own_gain;
+  own.is_own = true;
+  has_new_ = true;
+}
+
+void Hypotheses::add(const PoseWithCovariance& map_from_vehicle, const HypothesesOptions& options) {
+  const bool known = std::any_of(all_.begin(), all_.end(), [&](const Hypothesis& other) {
+    return are_one(other.tracker.estimate().pose, map_from_vehicle.pose, options);
+  });
+  if (known) return;
+  Hypothesis& added = all_.emplace_back();
+  added.tracker.start(map_from_vehicle);
+  added.predicted = added.tracker;
+  has_new_ = true;
+}
+
+void Hypotheses::predict(const Pose2& move, const OdometryNoise& noise,
+                         const TrackingOptions& options) {
+  for (Hypothesis& hypothesis : all_) hypothesis.tracker.predict(move, noise, options);
+}
+
+void Hypotheses::blur(double metres, double radians) {
+  for (Hypothesis& hypothesis : all_) hypothesis.tracker.blur(metres, radians);
+}
+
+void Hypotheses::weigh(const HypothesesTurn& turn, const HypothesesOptions& options) {
+  if (all_.empty()) return;
+  witnesses_.clear();
+  for (Hypothesis& hypothesis : all_) witnesses_.push_back(take_in(hypothesis, turn, options));
+  raise_odds(has_new_ ? 1.0 : std::min(1.0, turn.way_m / options.independent_way_m));
+  has_new_ = false;
+  drop_contradicted(options);
+  merge(options);
+  normalise(options);
+}
+
+/// By what the scan says, if so much of it is new since the last.
+void Hypotheses::raise_odds(double news) {
+  const auto best = std::max_element(
+      witnesses_.begin(), witnesses_.end(),
+      [](const Witness& a, const Witness& b) { return a.log_likelihood < b.log_likelihood; });
+  const double share = news * best->share_of_news;
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    all_[i].log_odds += share * (witnesses_[i].log_likelihood - best->log_likelihood);
+  }
+}
+
+/// Fits the scan near where dead reckoning has the hypothesis.
+Hypotheses::Witness Hypotheses::take_in(Hypothesis& hypothesis, const HypothesesTurn& turn,
+                                        const HypothesesOptions& options) {
+  hypothesis.predicted = hypothesis.tracker;
+  const PoseWithCovariance start = loosened(hypothesis.tracker.estimate());
+  const ScanFit& fit = refiner_.refine(turn.input, start, start, turn.refinement);
+  const FitQuality quality = quality_of(fit);
+  if (quality.returns < turn.status.fewest_returns) return {};  // a blind scanner says nothing
+  if (!explains(quality, turn.status)) {
+    ++hypothesis.contradicted;
+    hypothesis.explained = 0;
+  } else {
+    hypothesis.contradicted = 0;
+    const bool is_sure = hypothesis.is_own || quality.evidence_ratio > options.least_evidence_ratio;
+    hypothesis.explained_m =
+        is_sure && hypothesis.explained > 0 ? hypothesis.explained_m + turn.way_m : 0.0;
+    hypothesis.explained = is_sure ? hypothesis.explained + 1 : 0;
+    hypothesis.tracker.update({fit.pose, fit.score, fit.information, fit.white_information},
+                              turn.tracking);
+  }
+  return {fit.log_likelihood, shared_ratio(fit)};
+}
+
+void Hypotheses::drop_contradicted(const HypothesesOptions& options) {
+  std::erase_if(all_, [&](const Hypothesis& hypothesis) {
+    return !hypothesis.is_own && hypothesis.contradicted >= options.scans_to_refute;
+  });
+}
+
+/// Of those that have met, the more plausible is kept.
+void Hypotheses::merge(const HypothesesOptions& options) {
+  std::stable_sort(all_.begin(), all_.end(), [](const Hypothesis& a, const Hypothesis& b) {
+    return a.log_odds > b.log_odds;
+  });
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < all_.size(); ++i) {
+    const auto end = all_.begin() + static_cast<std::ptrdiff_t>(kept);
+    const auto better = std::find_if(all_.begin(), end, [&](const Hypothesis& other) {
+      return are_one(other.tracker.estimate().pose, all_[i].tracker.estimate().pose, options);
+    });
+    if (better != end) {
+      better->is_own = better->is_own || all_[i].is_own;
+      continue;
+    }
+    if (kept != i) all_[kept] = all_[i];
+    ++kept;
+  }
+  all_.resize(kept);
+}
+
+void Hypotheses::normalise(const HypothesesOptions& options) {
+  if (all_.empty()) return;
+  const double most = all_.front().log_odds;
+  double sum = 0.0;
+  for (Hypothesis& hypothesis : all_) {
+    hypothesis.log_odds -= most;
+    hypothesis.weight = std::exp(hypothesis.log_odds);
+    sum += hypothesis.weight;
+  }
+  for (Hypothesis& hypothesis : all_) hypothesis.weight /= sum;
+  std::erase_if(all_, [&](const Hypothesis& hypothesis) {
+    return !hypothesis.is_own && hypothesis.weight < options.least_weight;
+  });
+}
+
+const Hypotheses::Hypothesis& Hypotheses::leader() const {
+  const auto own = std::find_if(all_.begin(), all_.end(),
+                                [](const Hypothesis& hypothesis) { return hypothesis.is_own; });
+  return own != all_.end() ? *own : all_.front();
+}
+
+bool Hypotheses::is_decided(const HypothesesOptions& options) const {
+  if (all_.empty() || all_.front().weight < options.sure_weight) return false;
+  const Hypothesis& best = all_.front();
+  return best.explained >= options.scans_to_confirm &&
+         (best.is_own || best.explained_m >= options.way_to_confirm_m);
+}
+
+}  // namespace adit

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "adit/refinement/refinement.hpp"
+#include "adit/relocation/relocator.hpp"
+#include "adit/tracking/pose_tracker.hpp"
+#include "adit/tracking/verdict.hpp"
+
+namespace adit {
+
+/// When one of several poses may be believed, and when one is given up.
+struct HypothesesOptions {
+  double sure_weight = 0.999;
+  double least_weight = 1e-6;
+  int scans_to_confirm = 2;
+  double way_to_confirm_m = 3.0;
+  int scans_to_refute = 2;
+  double least_evidence_ratio = 0.6;
+  double own_gain = 3.0;
+  double independent_way_m = 2.0;
+  double same_place_m = 0.5;
+  double same_heading_rad = 0.1;
+
+  template <class Self, class Field>
+  static void visit(Self& self, Field&& field) {
+    field("sure_weight", self.sure_weight,
+          "a pose is believed again when its weight among all that explain the scans is this");
+    field("least_weight", self.least_weight, "one of less weight than this is given up");
+    field("scans_to_confirm", self.scans_to_confirm,
+          "so many scans in a row must be explained before a pose is believed ...");
+    field("way_to_confirm_m", self.way_to_confirm_m,
+          "... over so much way (m), unless dead reckoning has it there as well: mines look like "
+          "themselves");
+    field("scans_to_refute", self.scans_to_refute,
+          "one that so many scans in a row contradict is given up");
+    field("least_evidence_ratio", self.least_evidence_ratio,
+          "to confirm a pose, a scan must be explained to this share of what one of nothing but "
+          "the map's walls would give");
+    field("own_gain", self.own_gain,
+          "log of the odds of the pose by dead reckoning over one that a search found");
+    field("independent_way_m", self.independent_way_m,
+          "a scan is news in full after so much way since the last (m); before, it sees the same "
+          "walls again");
+    field("same_place_m", self.same_place_m,
+          "poses nearer to each other than this are one (m) ...");
+    field("same_heading_rad", self.same_heading_rad, "... if no more turned than this (rad)");
+  }
+};
+
+/// What the next scan is held against the hypotheses with.
+struct HypothesesTurn {
+  const RefinementInput& input;
+  double way_m = 0.0;  ///< since the last scan
+  const RefinementOptions& refinement;
+  const TrackingOptions& tracking;
+  const StatusOptions& status;
+};
+
+/// Poses of which any may be the true one, carried along until motion and scans have decided.
+///
+/// Each has its own filter; every scan weighs all of them. Two that meet become one; one that the
+/// scans contradict, or that weighs nothing beside the others, is given up.
+class Hypotheses {
+ public:
+  struct Hypothesis {
+    PoseTracker tracker;    // with the last scan taken in
+    PoseTracker predicted;  // without
+    double log_odds = 0.0;
+    double weight = 0.0;       // of all
+    int explained = 0;         // scans in a row ...
+    double explained_m = 0.0;  // ... and their way
+    int contradicted = 0;
+    bool is_own = false;  // by dead reckoning
+  };
+
+  void clear() {
+    all_.clear();
+    has_new_ = false;
+  }
+  bool empty() const { return all_.empty(); }
+  /// Whether none is left but the one by dead reckoning, and the last scan does not explain it.
+  bool is_hopeless() const {
+    return all_.size() == 1 && all_.front().is_own && all_.front().contradicted > 0;
+  }
+  std::size_t size() const { return all_.size(); }
+
+  /// The pose that dead reckoning has kept. It stays until another is believed: a plan that is
+  /// wrong at one place explains scans better elsewhere, but not for long.
+  void add_own(const PoseTracker& tracker, const HypothesesOptions& options);
+  /// Another, that a search has found.
+  void add(const PoseWithCovariance& map_from_vehicle, const HypothesesOptions& options);
+
+  void predict(const Pose2& move, const OdometryNoise& noise, const TrackingOptions& options);
+  /// Time without dead reckoning: all may have moved by this.
+  void blur(double metres, double radians);
+
+  /// Takes the scan in; afterwards the most plausible comes first.
+  void weigh(const HypothesesTurn& turn, const HypothesesOptions& options);
+
+  /// The one by dead reckoning while it may be the true one, else the most plausible; there is one
+  /// unless `empty`.
+  const Hypothesis& leader() const;
+  /// Whether the most plausible may be believed.
+  bool is_decided(const HypothesesOptions& options) const;
+  /// The most plausible first.
+  const std::vector<Hypothesis>& all() const { return all_; }
+
+ private:
+  /// What a scan says of a hypothesis.
+  struct Witness {
+    double log_likelihood = 0.0;
+    double share_of_news = 0.0;  // of it, for correlated beams say the same
+  };
+
+  Witness take_in(Hypothesis& hypothesis, const HypothesesTurn& turn,
+                  const HypothesesOptions& options);
+  void raise_odds(double news);
+  void drop_contradicted(const HypothesesOptions& options);
+  void merge(const HypothesesOptions& options);
+  void normalise(const HypothesesOptions& options);
+
+  std::vector<Hypothesis> all_;
+  std::vector<Witness> witnesses_;
+  bool has_new_ = false;  // since the last scan
+  Refiner refiner_;
+};
+
+}  // namespace adit

@@ -1,0 +1,131 @@
+#pragma once
+
+#include "adit/geometry/angle.hpp"
+
+namespace adit {
+
+/// Where in a plan a scanner may stand, and how finely that is laid out.
+struct PlaceIndexOptions {
+  double pitch_m = 0.75;
+  double finest_pitch_m = 0.35;
+  double enough_places = 2.0e4;
+  double most_places = 6.0e6;
+  double max_range_m = 80.0;
+  double least_clearance_m = 0.3;
+  double least_in_sight = 0.5;
+
+  template <class Self, class Field>
+  static void visit(Self& self, Field&& field) {
+    field("pitch_m", self.pitch_m, "places of the index lie so far apart (m)");
+    field("finest_pitch_m", self.finest_pitch_m,
+          "in a small plan they lie as near as this (m) ...");
+    field("enough_places", self.enough_places, "... while that makes no more of them than this");
+    field("most_places", self.most_places,
+          "they lie farther apart where the plan would hold more of them than this");
+    field("max_range_m", self.max_range_m, "a place's walls are looked for as far as this (m)");
+    field("least_clearance_m", self.least_clearance_m,
+          "no scanner stands nearer to a wall than this (m)");
+    field("least_in_sight", self.least_in_sight,
+          "a place that sees walls in less than this share of all directions is outside the mine");
+  }
+};
+
+/// What a beam meets, for the likelihood of a scan from a pose that nothing but the scan speaks
+/// for.
+struct LikelihoodOptions {
+  int beams = 120;
+  double leave_ratio = 0.03;
+  double back_ratio = 0.10;
+  double long_ratio = 0.05;
+  double dropout_ratio = 0.05;
+  double piece_m = 1.5;
+
+  template <class Self, class Field>
+  static void visit(Self& self, Field&& field) {
+    field("beams", self.beams, "so many beams of a scan are looked at");
+    field("leave_ratio", self.leave_ratio,
+          "probability that the scan's next beam after one on a wall of the map meets something "
+          "else");
+    field("back_ratio", self.back_ratio,
+          "probability that the next beam after one on something else is back on the map's wall");
+    field("long_ratio", self.long_ratio,
+          "share of the beams that meet something else behind the map's wall, not before it");
+    field("dropout_ratio", self.dropout_ratio,
+          "probability that a beam brings no return from a wall in reach");
+    field("piece_m", self.piece_m,
+          "beams on so much of a wall share its error: together they say little more than one (m)");
+  }
+};
+
+/// How a scan is searched for in a plan, and when the answer may be trusted.
+struct RelocationOptions {
+  double shorter_cap = 10.0;
+  double longer_cap = 14.0;
+  int first_bins = 16;
+  double kept_share = 0.03;
+  int fewest_kept = 1500;
+  int candidates = 600;
+  int coarsely_refined = 120;
+  int again_refined = 40;
+  int refined = 24;
+  int listed = 20;
+  double doubt_m = 0.2;
+  double doubt_rad = 0.04;
+  double start_m = 0.35;
+  double basin_m = 1.0;
+  double basin_rad = 0.1;
+  double merge_m = 0.5;
+  double merge_rad = radians(3.0);
+  double hopeless_gap = 25.0;
+  double least_map_ratio = 0.1;
+  double least_weight = 1e-4;
+  double rival_weight = 0.02;
+  double apart_m = 1.0;
+  double apart_rad = radians(5.0);
+  double sure_evidence_ratio = 0.68;
+  double sure_evidence_per_behind = 3.0;
+
+  template <class Self, class Field>
+  static void visit(Self& self, Field&& field) {
+    field("shorter_cap", self.shorter_cap,
+          "most that a bearing speaks against a place where the scan is shorter than the plan: "
+          "something may stand there (steps of the range code, at most 15)");
+    field("longer_cap", self.longer_cap, "and where it is longer: it went through rock");
+    field("first_bins", self.first_bins,
+          "so many bearings choose the places at which all are tried (at most 16)");
+    field("kept_share", self.kept_share, "those are this share of all places");
+    field("fewest_kept", self.fewest_kept, "but not fewer than this");
+    field("candidates", self.candidates, "of so many poses the likelihood is looked at");
+    field("coarsely_refined", self.coarsely_refined, "so many of them are fitted with some beams");
+    field("again_refined", self.again_refined, "so many of those once more");
+    field("refined", self.refined, "and so many of those with all points");
+    field("listed", self.listed, "no more poses than this are given as answers");
+    field("doubt_m", self.doubt_m,
+          "likelihoods of poses from the index allow for walls that are so much nearer or farther, "
+          "one sigma (m)");
+    field("start_m", self.start_m, "how far off such a pose is, one sigma (m)");
+    field("doubt_rad", self.doubt_rad, "the same for its heading (rad)");
+    field("basin_m", self.basin_m,
+          "what the scan leaves open is no wider than this, one sigma (m)");
+    field("basin_rad", self.basin_rad, "the same for the heading (rad)");
+    field("merge_m", self.merge_m, "fits no farther apart than this are one pose (m) ...");
+    field("merge_rad", self.merge_rad, "... if no more turned than this (rad)");
+    field("hopeless_gap", self.hopeless_gap,
+          "a pose less likely than the best by more than this (log) is not fitted with all points");
+    field("least_map_ratio", self.least_map_ratio,
+          "the plan may be better than stated, down to this part of the stated error: how much the "
+          "scan itself says");
+    field("least_weight", self.least_weight, "poses of less weight are not listed");
+    field("rival_weight", self.rival_weight,
+          "the best pose stands alone where all others together weigh less than this");
+    field("apart_m", self.apart_m, "another pose is one farther than this (m) ...");
+    field("apart_rad", self.apart_rad, "... or turned by more than this (rad)");
+    field("sure_evidence_ratio", self.sure_evidence_ratio,
+          "a pose is sure only where it explains this much of what a scan of nothing but the map's "
+          "walls would ...");
+    field("sure_evidence_per_behind", self.sure_evidence_per_behind,
+          "... and so much more per share of the returns from behind the map's walls");
+  }
+};
+
+}  // namespace adit

@@ -1,0 +1,118 @@
+#include "adit/relocation/place_index.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <thread>
+
+#include "adit/visibility/visibility.hpp"
+
+namespace adit {
+namespace {
+
+constexpr std::size_t kRaysPerBin = 8;
+constexpr std::size_t kMargin = 2;
+constexpr std::size_t kRays = kRangeBins * kRaysPerBin;
+
+/// Calls `work(i)` for 0 .. count - 1, each on one of the threads.
+template <class MakeWorker>
+void share_out(std::size_t count, int threads, const MakeWorker& make_worker) {
+  std::atomic<std::size_t> next{0};
+  const auto run = [&] {
+    auto work = make_worker();
+    for (std::size_t i = next++; i < count; i = next++) work(i);
+  };
+  std::vector<std::thread> pool;
+  for (int i = 1; i < threads; ++i) pool.emplace_back(run);
+  run();
+  for (std::thread& thread : pool) thread.join();
+}
+
+/// Coarse in a large plan, fine in a small one (m).
+double pitch_for(double area, const PlaceIndexOptions& options) {
+  const double fine = std::max(options.finest_pitch_m, std::sqrt(area / options.enough_places));
+  return std::max(std::min(options.pitch_m, fine), std::sqrt(area / options.most_places));
+}
+
+}  // namespace
+
+/// Looks around from the places of one row after the other.
+class PlaceIndex::RowBuilder {
+ public:
+  RowBuilder(const LineMap& map, const PlaceIndexOptions& options, const Vector2d& origin,
+             double pitch_m, int columns, std::vector<Row>& rows)
+      : map_(map),
+        options_(options),
+        origin_(origin),
+        pitch_m_(pitch_m),
+        columns_(columns),
+        rows_(rows) {}
+
+  void operator()(std::size_t row) {
+    for (int column = 0; column < columns_; ++column) {
+      const Cell cell{column, static_cast<std::int32_t>(row)};
+      const Vector2d place = origin_ + pitch_m_ * Vector2d(cell.column, cell.row);
+      if (!is_clear(place)) continue;
+      look_around(place);
+      if (share_in_sight() < options_.least_in_sight) continue;
+      rows_[row].cells.push_back(cell);
+      rows_[row].codes.push_back(code_ranges(ranges_, kMargin));
+    }
+  }
+
+ private:
+  bool is_clear(const Vector2d& place) {
+    near_.clear();
+    map_.near(place, options_.least_clearance_m, near_);
+    return near_.empty();
+  }
+
+  void look_around(const Vector2d& place) {
+    constexpr double kStep = kTwoPi / static_cast<double>(kRays);
+    visibility_.sweep(map_, place, options_.max_range_m);
+    visibility_.ranges(-kPi + 0.5 * kStep, kStep, ranges_);
+  }
+
+  double share_in_sight() const {
+    const auto seen = std::count_if(ranges_.begin(), ranges_.end(),
+                                    [](double range) { return std::isfinite(range); });
+    return static_cast<double>(seen) / static_cast<double>(kRays);
+  }
+
+  const LineMap& map_;
+  const PlaceIndexOptions& options_;
+  Vector2d origin_;
+  double pitch_m_;
+  int columns_;
+  std::vector<Row>& rows_;
+  Visibility visibility_;
+  std::vector<int> near_;
+  std::array<double, kRays> ranges_{};
+};
+
+PlaceIndex PlaceIndex::build(const LineMap& map, const PlaceIndexOptions& options, int threads) {
+  PlaceIndex index;
+  index.pitch_m_ = options.pitch_m;
+  if (map.empty()) return index;
+  const Vector2d size = map.bounds().size();
+  index.pitch_m_ = pitch_for(size.x() * size.y(), options);
+  const double pitch = index.pitch_m_;
+  index.origin_ = map.bounds().min + Vector2d::Constant(0.5 * pitch);
+  const auto columns = static_cast<int>(size.x() / pitch) + 1;
+  const auto row_count = static_cast<std::size_t>(size.y() / pitch) + 1;
+  std::vector<Row> rows(row_count);
+  share_out(row_count, threads,
+            [&] { return RowBuilder(map, options, index.origin_, pitch, columns, rows); });
+  for (const Row& row : rows) {
+    index.cells_.insert(index.cells_.end(), row.cells.begin(), row.cells.end());
+    index.codes_.insert(index.codes_.end(), row.codes.begin(), row.codes.end());
+  }
+  return index;
+}
+
+std::size_t PlaceIndex::memory() const {
+  return cells_.capacity() * sizeof(Cell) + codes_.capacity() * sizeof(RangeBands);
+}
+
+}  // namespace adit

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "adit/geometry/pose2.hpp"
+#include "adit/map/line_map.hpp"
+#include "adit/relocation/options.hpp"
+#include "adit/relocation/range_code.hpp"
+
+namespace adit {
+
+/// What is in sight from the places of a plan where a scanner may stand.
+///
+/// Places lie on a square lattice; each keeps its ranges as two bytes a bearing bin (map axes), 136
+/// bytes in all. Nobody knows the inside of a plan from its outside: places within rock are in it
+/// as well. The same with any number of threads.
+class PlaceIndex {
+ public:
+  PlaceIndex() = default;
+  static PlaceIndex build(const LineMap& map, const PlaceIndexOptions& options = {},
+                          int threads = 1);
+
+  std::size_t size() const { return cells_.size(); }
+  bool empty() const { return cells_.empty(); }
+  double pitch_m() const { return pitch_m_; }
+  /// Bytes that it holds.
+  std::size_t memory() const;
+
+  Vector2d position(std::size_t place) const {
+    const Cell& cell = cells_[place];
+    return origin_ + pitch_m_ * Vector2d(cell.column, cell.row);
+  }
+  const RangeBands& codes(std::size_t place) const { return codes_[place]; }
+
+ private:
+  /// Places follow each other row by row, and column by column within a row.
+  struct Cell {
+    std::int32_t column = 0;
+    std::int32_t row = 0;
+  };
+  struct Row {
+    std::vector<Cell> cells;
+    std::vector<RangeBands> codes;
+  };
+  class RowBuilder;
+
+  Vector2d origin_ = Vector2d::Zero();
+  double pitch_m_ = 1.0;
+  std::vector<Cell> cells_;
+  std::vector<RangeBands> codes_;
+};
+
+}  // namespace adit

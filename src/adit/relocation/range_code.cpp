@@ -1,0 +1,67 @@
+#include "adit/relocation/range_code.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace adit {
+namespace {
+
+constexpr double kFarthest = 100.0;  // m
+constexpr double kLinear = 4.0;      // m; codes are near linear below
+
+}  // namespace
+
+std::uint8_t range_code(double range_m) {
+  static const double scale = kNothingInSight / std::log1p(kFarthest / kLinear);
+  const double range = std::clamp(range_m, 0.0, kFarthest);
+  return static_cast<std::uint8_t>(std::lround(scale * std::log1p(range / kLinear)));
+}
+
+ScanCodes code_scan(const LaserScan& scan, const ScannerModel& scanner,
+                    const Pose2& laser_from_eye) {
+  ScanCodes out;
+  const double no_return = scanner.no_return_from(scan.max_range);
+  out.farthest = range_code(no_return);
+  std::array<std::vector<double>, kRangeBins> bins;
+  for (std::size_t i = 0; i < scan.beams_of_one_turn(); ++i) {
+    const double range = scan.ranges[i];
+    const bool returned = range > 0.0 && range >= scanner.min_range_m && range < no_return;
+    const double met = returned ? range : no_return;
+    const Vector2d seen = met * unit_vector(scan.bearing(i)) - laser_from_eye.translation();
+    const double bearing = std::atan2(seen.y(), seen.x()) - laser_from_eye.theta;
+    const double turns = (bearing + kPi) / kTwoPi;
+    const double part = turns - std::floor(turns);
+    const auto bin = std::min(kRangeBins - 1, static_cast<std::size_t>(part * kRangeBins));
+    bins[bin].push_back(returned ? seen.norm() : no_return);
+  }
+  for (std::size_t b = 0; b < kRangeBins; ++b) {
+    if (bins[b].empty()) continue;
+    const auto middle = bins[b].begin() + static_cast<std::ptrdiff_t>((bins[b].size() - 1) / 2);
+    std::nth_element(bins[b].begin(), middle, bins[b].end());
+    out.codes[b] = range_code(*middle);
+    out.seen[b] = true;
+    ++out.bins_seen;
+  }
+  return out;
+}
+
+RangeBands code_ranges(std::span<const double> ranges, std::size_t margin) {
+  RangeBands out;
+  const std::size_t rays = ranges.size() / kRangeBins;
+  for (std::size_t b = 0; b < kRangeBins; ++b) {
+    double nearest = std::numeric_limits<double>::infinity();
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < rays + 2 * margin; ++i) {
+      const double range = ranges[(b * rays + i + ranges.size() - margin) % ranges.size()];
+      nearest = std::min(nearest, range);
+      farthest = std::max(farthest, range);
+    }
+    out.nearest[b] = range_code(nearest);
+    out.farthest[b] = range_code(farthest);
+  }
+  return out;
+}
+
+}  // namespace adit
