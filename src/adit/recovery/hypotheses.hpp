@@ -18,7 +18,7 @@ struct HypothesesOptions {
   int scans_to_confirm = 2;
   double way_to_confirm_m = 3.0;
   int scans_to_refute = 2;
-  double least_evidence_ratio = 0.6;
+  double least_evidence_ratio = 0.75;
   double own_gain = 3.0;
   double independent_way_m = 2.0;
   double same_place_m = 0.5;
@@ -36,9 +36,10 @@ struct HypothesesOptions {
           "themselves");
     field("scans_to_refute", self.scans_to_refute,
           "one that so many scans in a row contradict is given up");
-    field("least_evidence_ratio", self.least_evidence_ratio,
-          "to confirm a pose, a scan must be explained to this share of what one of nothing but "
-          "the map's walls would give");
+    field(
+        "least_evidence_ratio", self.least_evidence_ratio,
+        "to confirm a pose that a search has found, a scan must be explained to this share of what "
+        "one of nothing but the map's walls would give");
     field("own_gain", self.own_gain,
           "log of the odds of the pose by dead reckoning over one that a search found");
     field("independent_way_m", self.independent_way_m,

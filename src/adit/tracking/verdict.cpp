@@ -43,9 +43,12 @@ void Trust::note_usual(const FitQuality& quality) {
 /// Whether the vehicle seems to have been carried off: from one scan to the next the map explains
 /// less, and rock is seen through.
 bool Trust::is_sudden(const FitQuality& quality, const StatusOptions& options) const {
-  return !contradicted_ && scans_ >= options.usual_scans &&
-         usual_ - quality.evidence_ratio > options.sudden_evidence_ratio &&
-         quality.behind_ratio - usual_behind_ > options.sudden_behind_ratio;
+  if (contradicted_) return false;
+  const bool is_known = scans_ >= options.usual_scans;
+  const double usual = is_known ? usual_ : options.first_evidence_ratio;
+  const double usual_behind = is_known ? usual_behind_ : options.first_behind_ratio;
+  return usual - quality.evidence_ratio > options.sudden_evidence_ratio &&
+         quality.behind_ratio - usual_behind > options.sudden_behind_ratio;
 }
 
 std::optional<Vector2d> open_direction(const Matrix3d& fix_covariance,

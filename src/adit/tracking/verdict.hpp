@@ -30,6 +30,8 @@ struct StatusOptions {
   double sudden_evidence_ratio = 0.15;
   double sudden_behind_ratio = 0.02;
   double usual_scans = 4.0;
+  double first_evidence_ratio = 0.85;
+  double first_behind_ratio = 0.02;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -82,6 +84,10 @@ struct StatusOptions {
           "... and of which more than usual by this comes from behind the map's walls contradicts "
           "the pose: what stands in the way makes no beam longer");
     field("usual_scans", self.usual_scans, "what is usual is known after so many scans");
+    field("first_evidence_ratio", self.first_evidence_ratio,
+          "before, so much of what could be explained is taken for usual ...");
+    field("first_behind_ratio", self.first_behind_ratio,
+          "... and so much of the returns behind the map's walls");
   }
 };
 

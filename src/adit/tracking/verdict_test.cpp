@@ -99,6 +99,29 @@ TEST(Trust, AsksMoreWhereScanAndDeadReckoningDisagree) {
   EXPECT_TRUE(Trust{}.next(fit, 1.0, options));
 }
 
+TEST(Trust, ASuddenLookThroughRockContradictsThePose) {
+  const StatusOptions options;
+  FitQuality odd = good();
+  odd.evidence_ratio -= options.sudden_evidence_ratio + 0.02;
+  odd.behind_ratio += options.sudden_behind_ratio + 0.01;
+  FitQuality hidden = odd;  // something stands in the way
+  hidden.behind_ratio = good().behind_ratio;
+  FitQuality open = good();  // a curtain is open
+  open.behind_ratio = odd.behind_ratio;
+  FitQuality odd_start = odd;
+  odd_start.evidence_ratio = options.first_evidence_ratio - options.sudden_evidence_ratio - 0.01;
+  odd_start.behind_ratio = options.first_behind_ratio + options.sudden_behind_ratio + 0.01;
+  Trust trust;
+  EXPECT_TRUE(trust.next(odd, 1.0, options));  // nobody knows yet what is usual
+  EXPECT_FALSE(trust.next(odd_start, 1.0, options));
+  trust.reset();
+  for (int i = 0; i < 10; ++i) EXPECT_TRUE(trust.next(good(), 1.0, options));
+  EXPECT_TRUE(trust.next(hidden, 1.0, options));
+  EXPECT_TRUE(trust.next(open, 1.0, options));
+  EXPECT_FALSE(trust.next(odd, 1.0, options));
+  EXPECT_TRUE(trust.contradicted());
+}
+
 /// How far (m) the vehicle must go in steps until the pose is trusted again.
 double way_to_regain(Trust& trust, const FitQuality& quality, double step_m) {
   double way = step_m;

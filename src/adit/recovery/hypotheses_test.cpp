@@ -1,0 +1,154 @@
+#include "adit/recovery/hypotheses.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "adit/visibility/visibility.hpp"
+
+namespace adit {
+namespace {
+
+/// Two rooms that are alike but for a niche in the second, forty metres farther east.
+std::vector<Segment> two_rooms() {
+  std::vector<Segment> plan;
+  for (const double x : {0.0, 40.0}) {
+    plan.push_back({{x, 0}, {x + 20, 0}});
+    plan.push_back({{x + 20, 0}, {x + 20, 12}});
+    plan.push_back({{x, 12}, {x, 0}});
+  }
+  plan.push_back({{20, 12}, {0, 12}});
+  for (const Segment& side :
+       {Segment{{60, 12}, {58, 12}}, Segment{{58, 12}, {58, 15}}, Segment{{58, 15}, {52, 15}},
+        Segment{{52, 15}, {52, 12}}, Segment{{52, 12}, {40, 12}}}) {
+    plan.push_back(side);
+  }
+  return plan;
+}
+
+class HypothesesTest : public ::testing::Test {
+ protected:
+  HypothesesTest() {
+    scanner.range_sigma_m = 0.02;
+    scanner.max_range_m = 40.0;
+    error.offset_sigma_m = 0.02;
+  }
+
+  LaserScan scan_from(const Pose2& pose) const {
+    LaserScan scan;
+    scan.first_bearing = -kPi;
+    scan.bearing_step = kTwoPi / 360.0;
+    scan.max_range = scanner.max_range_m;
+    scan.ranges.resize(360);
+    Visibility visibility;
+    visibility.sweep(map, pose.translation(), scan.max_range);
+    visibility.ranges(pose.theta + scan.first_bearing, scan.bearing_step, scan.ranges);
+    return scan;
+  }
+
+  static PoseWithCovariance near(const Pose2& pose) {
+    return {pose, Vector3d(0.01, 0.01, 0.001).asDiagonal()};
+  }
+
+  void drive(Hypotheses& hypotheses, const Pose2& truth, double way_m) const {
+    hypotheses.predict({way_m, 0.0, 0.0}, OdometryNoise{}, tracking);
+    const LaserScan scan = scan_from(truth);
+    const RefinementInput input{map, scan, scanner, error, std::nullopt};
+    hypotheses.weigh({input, way_m, refinement, tracking, status}, options);
+  }
+
+  LineMap map = LineMap::build(two_rooms());
+  ScannerModel scanner;
+  MapError error;
+  RefinementOptions refinement;
+  TrackingOptions tracking;
+  StatusOptions status;
+  HypothesesOptions options;
+};
+
+TEST_F(HypothesesTest, RoomsThatLookAlikeStayUndecided) {
+  const auto blind = [](double x) { return Pose2{x, 2.0, 0.0}; };
+  Hypotheses hypotheses;
+  // From here a scanner of seven metres sees no niche.
+  scanner.max_range_m = 7.0;
+  hypotheses.add(near(blind(3.0)), options);
+  hypotheses.add(near(blind(43.0)), options);
+  for (int i = 1; i <= 4; ++i) drive(hypotheses, blind(3.0 + 0.5 * i), 0.5);
+  ASSERT_EQ(hypotheses.size(), 2u);
+  EXPECT_FALSE(hypotheses.is_decided(options));
+  EXPECT_GT(hypotheses.all()[1].weight, 0.01);
+}
+
+TEST_F(HypothesesTest, WhatTellsThemApartDecidesAfterSomeWay) {
+  Hypotheses hypotheses;
+  hypotheses.add(near({6.0, 6.0, 0.0}), options);
+  hypotheses.add(near({46.0, 6.0, 0.0}), options);
+  drive(hypotheses, {46.5, 6.0, 0.0}, 0.5);
+  ASSERT_FALSE(hypotheses.empty());
+  EXPECT_NEAR(hypotheses.all().front().tracker.estimate().pose.x, 46.5, 0.1);
+  EXPECT_FALSE(hypotheses.is_decided(options));  // one scan, and no way
+  for (int i = 1; i <= 6; ++i) drive(hypotheses, {46.5 + 0.5 * i, 6.0, 0.0}, 0.5);
+  EXPECT_TRUE(hypotheses.is_decided(options));
+  EXPECT_NEAR(hypotheses.leader().tracker.estimate().pose.x, 49.5, 0.1);
+}
+
+TEST_F(HypothesesTest, StandingStillDecidesNothing) {
+  Hypotheses hypotheses;
+  hypotheses.add(near({46.0, 6.0, 0.0}), options);
+  for (int i = 0; i < 20; ++i) drive(hypotheses, {46.0, 6.0, 0.0}, 0.0);
+  EXPECT_FALSE(hypotheses.is_decided(options));
+}
+
+TEST_F(HypothesesTest, ThePoseByDeadReckoningLeadsUntilAnotherIsBelieved) {
+  PoseTracker own;
+  own.start(near({6.0, 6.0, 0.0}));
+  Hypotheses hypotheses;
+  hypotheses.add(near({46.0, 6.0, 0.0}), options);
+  hypotheses.add_own(own, options);
+  for (int i = 1; i <= 3; ++i) {
+    drive(hypotheses, {46.0 + 0.5 * i, 6.0, 0.0}, 0.5);
+    EXPECT_TRUE(hypotheses.leader().is_own);
+    EXPECT_FALSE(hypotheses.is_decided(options));
+  }
+  for (int i = 4; i <= 8; ++i) drive(hypotheses, {46.0 + 0.5 * i, 6.0, 0.0}, 0.5);
+  EXPECT_TRUE(hypotheses.is_decided(options));
+  EXPECT_FALSE(hypotheses.all().front().is_own);
+}
+
+TEST_F(HypothesesTest, WhatASearchFindsWhereDeadReckoningIsNeedsNoWay) {
+  PoseTracker own;
+  own.start(near({46.0, 6.0, 0.0}));
+  Hypotheses hypotheses;
+  hypotheses.add(near({46.2, 6.0, 0.02}), options);
+  hypotheses.add_own(own, options);
+  EXPECT_EQ(hypotheses.size(), 1u);
+  drive(hypotheses, {46.0, 6.0, 0.0}, 0.0);
+  drive(hypotheses, {46.0, 6.0, 0.0}, 0.0);
+  EXPECT_TRUE(hypotheses.is_decided(options));
+}
+
+TEST_F(HypothesesTest, ContradictedPosesAreGivenUp) {
+  PoseTracker own;
+  own.start(near({4.0, 30.0, 1.0}));  // in rock
+  Hypotheses hypotheses;
+  hypotheses.add(near({5.0, 6.0, 0.0}), options);
+  hypotheses.add(near({15.0, 4.0, 2.0}), options);
+  hypotheses.add_own(own, options);
+  for (int i = 0; i < 3; ++i) drive(hypotheses, {50.0, 3.0, 1.2}, 0.0);
+  ASSERT_EQ(hypotheses.size(), 1u);
+  EXPECT_TRUE(hypotheses.is_hopeless());
+}
+
+TEST_F(HypothesesTest, PosesThatMeetBecomeOne) {
+  Hypotheses hypotheses;
+  hypotheses.add(near({46.0, 6.0, 0.0}), options);
+  hypotheses.add(near({46.7, 6.0, 0.0}), options);
+  EXPECT_EQ(hypotheses.size(), 2u);
+  drive(hypotheses, {46.3, 6.0, 0.0}, 0.0);
+  EXPECT_EQ(hypotheses.size(), 1u);
+  hypotheses.add(near({46.4, 6.1, 0.01}), options);
+  EXPECT_EQ(hypotheses.size(), 1u);
+}
+
+}  // namespace
+}  // namespace adit
