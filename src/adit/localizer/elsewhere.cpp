@@ -30,7 +30,8 @@ void Localizer::weigh_hypotheses(const LaserScan& scan) {
   if (hypotheses_.empty()) return;
   const Stopwatch watch(timings_.search);
   const RefinementInput input{map_, scan, scanner_, map_error_.error(), motion_};
-  hypotheses_.weigh({input, way_m_, settings_.refinement, settings_.tracking, settings_.status},
+  hypotheses_.weigh({input, way_m_, settings_.refinement, settings_.tracking, settings_.status,
+                     tracker_, scan_fit_},
                     settings_.hypotheses);
   if (hypotheses_.empty()) return;
   const bool is_decided = hypotheses_.is_decided(settings_.hypotheses);
@@ -66,13 +67,14 @@ void Localizer::take_search() {
 
 /// The estimate becomes this hypothesis, as it was before this scan.
 void Localizer::follow(const Hypotheses::Hypothesis& hypothesis, const RefinementInput& input) {
+  ambiguous_ = true;
+  trust_.doubt();
+  if (hypothesis.is_own) return;
   is_anywhere_ = false;
   rival_.reset();
   tracker_ = hypothesis.predicted;
   predicted_ = tracker_.estimate();
   scan_fit_ = refine_from(input, {predicted_.pose, floored(predicted_.covariance)});
-  ambiguous_ = true;
-  trust_.doubt();
 }
 
 /// Begins the search for a scan that contradicts the pose.

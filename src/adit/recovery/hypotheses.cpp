@@ -82,24 +82,34 @@ void Hypotheses::raise_odds(double news) {
 /// Fits the scan near where dead reckoning has the hypothesis.
 Hypotheses::Witness Hypotheses::take_in(Hypothesis& hypothesis, const HypothesesTurn& turn,
                                         const HypothesesOptions& options) {
+  if (hypothesis.is_own) hypothesis.tracker = turn.own;
   hypothesis.predicted = hypothesis.tracker;
   const PoseWithCovariance start = loosened(hypothesis.tracker.estimate());
-  const ScanFit& fit = refiner_.refine(turn.input, start, start, turn.refinement);
+  const ScanFit& fit =
+      hypothesis.is_own ? turn.own_fit : refiner_.refine(turn.input, start, start, turn.refinement);
   const FitQuality quality = quality_of(fit);
   if (quality.returns < turn.status.fewest_returns) return {};  // a blind scanner says nothing
-  if (!explains(quality, turn.status)) {
-    ++hypothesis.contradicted;
-    hypothesis.explained = 0;
-  } else {
-    hypothesis.contradicted = 0;
-    const bool is_sure = hypothesis.is_own || quality.evidence_ratio > options.least_evidence_ratio;
-    hypothesis.explained_m =
-        is_sure && hypothesis.explained > 0 ? hypothesis.explained_m + turn.way_m : 0.0;
-    hypothesis.explained = is_sure ? hypothesis.explained + 1 : 0;
+  judge(quality, turn, options, hypothesis);
+  if (hypothesis.contradicted == 0) {
     hypothesis.tracker.update({fit.pose, fit.score, fit.information, fit.white_information},
                               turn.tracking);
   }
   return {fit.log_likelihood, shared_ratio(fit)};
+}
+
+/// Counts the scans that explain or contradict a hypothesis.
+void Hypotheses::judge(const FitQuality& quality, const HypothesesTurn& turn,
+                       const HypothesesOptions& options, Hypothesis& hypothesis) {
+  if (!explains(quality, turn.status)) {
+    ++hypothesis.contradicted;
+    hypothesis.explained = 0;
+    return;
+  }
+  hypothesis.contradicted = 0;
+  const bool is_sure = hypothesis.is_own || quality.evidence_ratio > options.least_evidence_ratio;
+  const bool goes_on = is_sure && hypothesis.explained > 0;
+  hypothesis.explained_m = goes_on ? hypothesis.explained_m + turn.way_m : 0.0;
+  hypothesis.explained = is_sure ? hypothesis.explained + 1 : 0;
 }
 
 void Hypotheses::drop_contradicted(const HypothesesOptions& options) {

@@ -58,6 +58,9 @@ struct HypothesesTurn {
   const RefinementOptions& refinement;
   const TrackingOptions& tracking;
   const StatusOptions& status;
+  /// The pose by dead reckoning as it was before the scan, and the scan's fit there.
+  const PoseTracker& own;
+  const ScanFit& own_fit;
 };
 
 /// Poses of which any may be the true one, carried along until motion and scans have decided.
@@ -118,6 +121,8 @@ class Hypotheses {
 
   Witness take_in(Hypothesis& hypothesis, const HypothesesTurn& turn,
                   const HypothesesOptions& options);
+  static void judge(const FitQuality& quality, const HypothesesTurn& turn,
+                    const HypothesesOptions& options, Hypothesis& hypothesis);
   void raise_odds(double news);
   void drop_contradicted(const HypothesesOptions& options);
   void merge(const HypothesesOptions& options);

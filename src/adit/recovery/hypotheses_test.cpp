@@ -50,11 +50,14 @@ class HypothesesTest : public ::testing::Test {
     return {pose, Vector3d(0.01, 0.01, 0.001).asDiagonal()};
   }
 
-  void drive(Hypotheses& hypotheses, const Pose2& truth, double way_m) const {
+  void drive(Hypotheses& hypotheses, const Pose2& truth, double way_m) {
     hypotheses.predict({way_m, 0.0, 0.0}, OdometryNoise{}, tracking);
     const LaserScan scan = scan_from(truth);
     const RefinementInput input{map, scan, scanner, error, std::nullopt};
-    hypotheses.weigh({input, way_m, refinement, tracking, status}, options);
+    own.predict({way_m, 0.0, 0.0}, OdometryNoise{}, tracking);
+    Refiner refiner;
+    const ScanFit fit = refiner.refine(input, own.estimate(), own.estimate(), refinement);
+    hypotheses.weigh({input, way_m, refinement, tracking, status, own, fit}, options);
   }
 
   LineMap map = LineMap::build(two_rooms());
@@ -64,6 +67,7 @@ class HypothesesTest : public ::testing::Test {
   TrackingOptions tracking;
   StatusOptions status;
   HypothesesOptions options;
+  PoseTracker own;  // the pose by dead reckoning
 };
 
 TEST_F(HypothesesTest, RoomsThatLookAlikeStayUndecided) {
@@ -100,7 +104,6 @@ TEST_F(HypothesesTest, StandingStillDecidesNothing) {
 }
 
 TEST_F(HypothesesTest, ThePoseByDeadReckoningLeadsUntilAnotherIsBelieved) {
-  PoseTracker own;
   own.start(near({6.0, 6.0, 0.0}));
   Hypotheses hypotheses;
   hypotheses.add(near({46.0, 6.0, 0.0}), options);
@@ -116,7 +119,6 @@ TEST_F(HypothesesTest, ThePoseByDeadReckoningLeadsUntilAnotherIsBelieved) {
 }
 
 TEST_F(HypothesesTest, WhatASearchFindsWhereDeadReckoningIsNeedsNoWay) {
-  PoseTracker own;
   own.start(near({46.0, 6.0, 0.0}));
   Hypotheses hypotheses;
   hypotheses.add(near({46.2, 6.0, 0.02}), options);
@@ -128,7 +130,6 @@ TEST_F(HypothesesTest, WhatASearchFindsWhereDeadReckoningIsNeedsNoWay) {
 }
 
 TEST_F(HypothesesTest, ContradictedPosesAreGivenUp) {
-  PoseTracker own;
   own.start(near({4.0, 30.0, 1.0}));  // in rock
   Hypotheses hypotheses;
   hypotheses.add(near({5.0, 6.0, 0.0}), options);
