@@ -36,32 +36,43 @@ void Localizer::weigh_hypotheses(const LaserScan& scan) {
   if (hypotheses_.empty()) return;
   const bool is_decided = hypotheses_.is_decided(settings_.hypotheses);
   follow(is_decided ? hypotheses_.all().front() : hypotheses_.leader(), input);
-  if (hypotheses_.is_hopeless()) {
+  const bool is_own = hypotheses_.all().front().is_own;
+  if (is_decided && (is_confirmed_ || is_own)) {
+    hypotheses_.clear();
+    trust_.reset();
+    if (!is_own) trusted_m_ = 0.0;
+    ambiguous_ = false;
+  } else if (hypotheses_.is_hopeless()) {
     hypotheses_.clear();
     scans_to_wait_ = settings_.recovery.scans_between;
   }
-  if (!is_decided) return;
-  hypotheses_.clear();
-  trust_.reset();
-  ambiguous_ = false;
 }
 
 /// Takes what the search found, carried on to this scan by dead reckoning, and beside it the pose
 /// that dead reckoning alone has kept.
 void Localizer::take_search() {
   const RelocationResult found = finder_.take();
+  const bool is_first = hypotheses_.empty();
+  bool is_news = found.verdict == Status::lost;
   for (const RankedPose& pose : found.poses) {
-    const bool serves = found.verdict != Status::lost && explains(pose.quality, settings_.status);
-    if (!serves) continue;
+    if (found.verdict == Status::lost || !explains(pose.quality, settings_.status)) continue;
     const PoseWithCovariance& way = since_search_.estimate();
     PoseWithCovariance here = carry({pose.pose, pose.covariance}, way.pose);
     here.covariance += turned(way.covariance, pose.pose.theta);
-    hypotheses_.add(here, settings_.hypotheses);
+    if (hypotheses_.add(here, settings_.hypotheses)) is_news = true;
   }
+  // A search lists so many poses and no more: in a mine that repeats itself the true one may be
+  // missing. Only another search, elsewhere, that finds no new one says that none is.
+  const auto most = static_cast<std::size_t>(settings_.relocation.listed);
+  is_confirmed_ = !is_first && !is_news && found.poses.size() < most;
   if (hypotheses_.empty()) {
     scans_to_wait_ = settings_.recovery.scans_between;
-  } else if (!is_anywhere_) {
-    hypotheses_.add_own(tracker_, settings_.hypotheses);
+  } else if (is_first && !is_anywhere_) {
+    if (trusted_m_ > settings_.hypotheses.own_way_m) {
+      hypotheses_.add_own(tracker_, settings_.hypotheses);
+    } else {
+      hypotheses_.add(tracker_.estimate(), settings_.hypotheses);
+    }
   }
 }
 
@@ -77,14 +88,18 @@ void Localizer::follow(const Hypotheses::Hypothesis& hypothesis, const Refinemen
   scan_fit_ = refine_from(input, {predicted_.pose, floored(predicted_.covariance)});
 }
 
-/// Begins the search for a scan that contradicts the pose.
+/// Begins a search: for a scan that contradicts the pose, or for one at which a pose is about to be
+/// believed.
 void Localizer::seek_elsewhere(const LaserScan& scan) {
+  if (!uses_points() || !settings_.recovery.searches || finder_.is_searching()) return;
   const bool is_lost = is_anywhere_ || trust_.contradicted();
-  if (!is_lost || !uses_points() || !settings_.recovery.searches) return;
-  if (!hypotheses_.empty() || finder_.is_searching() || --scans_to_wait_ > 0) return;
+  const bool is_due = hypotheses_.empty() ? is_lost && --scans_to_wait_ <= 0
+                                          : hypotheses_.is_decided(settings_.hypotheses);
+  if (!is_due) return;
   if (scan_fit_.counts.returns() < settings_.status.fewest_returns && !is_anywhere_) return;
   finder_.begin(query_for(scan), finder_options());
   scans_to_wait_ = settings_.recovery.scans_for_search;
+  is_confirmed_ = false;
   since_search_.start({});
 }
 

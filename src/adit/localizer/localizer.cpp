@@ -1,6 +1,7 @@
 #include "adit/localizer/localizer.hpp"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace adit {
@@ -103,6 +104,8 @@ void Localizer::forget() {
   finder_.abandon();
   hypotheses_.clear();
   is_anywhere_ = false;
+  is_confirmed_ = false;
+  trusted_m_ = std::numeric_limits<double>::infinity();  // by whoever states the start
   scans_to_wait_ = 0;
   estimate_ = Estimate{};
 }

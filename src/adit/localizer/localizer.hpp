@@ -156,9 +156,11 @@ class Localizer {
   // While the pose is lost.
   PlaceFinder finder_;
   Hypotheses hypotheses_;
-  PoseTracker since_search_;  // dead reckoning from where the scan that is looked for was taken
-  bool is_anywhere_ = false;  // nothing is known of the pose
-  int scans_to_wait_ = 0;     // for the search's answer, or for the next search
+  PoseTracker since_search_;   // dead reckoning from where the scan that is looked for was taken
+  double trusted_m_ = 0.0;     // way since the pose was found
+  bool is_confirmed_ = false;  // a second search found no other pose
+  bool is_anywhere_ = false;   // nothing is known of the pose
+  int scans_to_wait_ = 0;      // for the search's answer, or for the next search
 
   // Of this turn.
   PoseWithCovariance predicted_;

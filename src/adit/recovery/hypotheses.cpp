@@ -37,15 +37,16 @@ void Hypotheses::add_own(const PoseTracker& tracker, const HypothesesOptions& op
   has_new_ = true;
 }
 
-void Hypotheses::add(const PoseWithCovariance& map_from_vehicle, const HypothesesOptions& options) {
+bool Hypotheses::add(const PoseWithCovariance& map_from_vehicle, const HypothesesOptions& options) {
   const bool known = std::any_of(all_.begin(), all_.end(), [&](const Hypothesis& other) {
     return are_one(other.tracker.estimate().pose, map_from_vehicle.pose, options);
   });
-  if (known) return;
+  if (known) return false;
   Hypothesis& added = all_.emplace_back();
   added.tracker.start(map_from_vehicle);
   added.predicted = added.tracker;
   has_new_ = true;
+  return true;
 }
 
 void Hypotheses::predict(const Pose2& move, const OdometryNoise& noise,
@@ -89,7 +90,7 @@ Hypotheses::Witness Hypotheses::take_in(Hypothesis& hypothesis, const Hypotheses
       hypothesis.is_own ? turn.own_fit : refiner_.refine(turn.input, start, start, turn.refinement);
   const FitQuality quality = quality_of(fit);
   if (quality.returns < turn.status.fewest_returns) return {};  // a blind scanner says nothing
-  judge(quality, turn, options, hypothesis);
+  judge(fit, quality, turn, options, hypothesis);
   if (hypothesis.contradicted == 0) {
     hypothesis.tracker.update({fit.pose, fit.score, fit.information, fit.white_information},
                               turn.tracking);
@@ -98,7 +99,7 @@ Hypotheses::Witness Hypotheses::take_in(Hypothesis& hypothesis, const Hypotheses
 }
 
 /// Counts the scans that explain or contradict a hypothesis.
-void Hypotheses::judge(const FitQuality& quality, const HypothesesTurn& turn,
+void Hypotheses::judge(const ScanFit& fit, const FitQuality& quality, const HypothesesTurn& turn,
                        const HypothesesOptions& options, Hypothesis& hypothesis) {
   if (!explains(quality, turn.status)) {
     ++hypothesis.contradicted;
@@ -106,7 +107,9 @@ void Hypotheses::judge(const FitQuality& quality, const HypothesesTurn& turn,
     return;
   }
   hypothesis.contradicted = 0;
-  const bool is_sure = hypothesis.is_own || quality.evidence_ratio > options.least_evidence_ratio;
+  const bool shows_all = !open_direction(fix_covariance(fit.information), turn.status);
+  const bool is_sure =
+      hypothesis.is_own || (quality.evidence_ratio > options.least_evidence_ratio && shows_all);
   const bool goes_on = is_sure && hypothesis.explained > 0;
   hypothesis.explained_m = goes_on ? hypothesis.explained_m + turn.way_m : 0.0;
   hypothesis.explained = is_sure ? hypothesis.explained + 1 : 0;

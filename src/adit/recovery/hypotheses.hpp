@@ -20,6 +20,7 @@ struct HypothesesOptions {
   int scans_to_refute = 2;
   double least_evidence_ratio = 0.75;
   double own_gain = 3.0;
+  double own_way_m = 10.0;
   double independent_way_m = 2.0;
   double same_place_m = 0.5;
   double same_heading_rad = 0.1;
@@ -39,9 +40,12 @@ struct HypothesesOptions {
     field(
         "least_evidence_ratio", self.least_evidence_ratio,
         "to confirm a pose that a search has found, a scan must be explained to this share of what "
-        "one of nothing but the map's walls would give");
+        "one of nothing but the map's walls would give, and show all of it");
     field("own_gain", self.own_gain,
           "log of the odds of the pose by dead reckoning over one that a search found");
+    field("own_way_m", self.own_way_m,
+          "a pose by dead reckoning that was trusted for less than this way (m) is one of the "
+          "others");
     field("independent_way_m", self.independent_way_m,
           "a scan is news in full after so much way since the last (m); before, it sees the same "
           "walls again");
@@ -94,8 +98,8 @@ class Hypotheses {
   /// The pose that dead reckoning has kept. It stays until another is believed: a plan that is
   /// wrong at one place explains scans better elsewhere, but not for long.
   void add_own(const PoseTracker& tracker, const HypothesesOptions& options);
-  /// Another, that a search has found.
-  void add(const PoseWithCovariance& map_from_vehicle, const HypothesesOptions& options);
+  /// Another, that a search has found. False if it is held already.
+  bool add(const PoseWithCovariance& map_from_vehicle, const HypothesesOptions& options);
 
   void predict(const Pose2& move, const OdometryNoise& noise, const TrackingOptions& options);
   /// Time without dead reckoning: all may have moved by this.
@@ -121,7 +125,7 @@ class Hypotheses {
 
   Witness take_in(Hypothesis& hypothesis, const HypothesesTurn& turn,
                   const HypothesesOptions& options);
-  static void judge(const FitQuality& quality, const HypothesesTurn& turn,
+  static void judge(const ScanFit& fit, const FitQuality& quality, const HypothesesTurn& turn,
                     const HypothesesOptions& options, Hypothesis& hypothesis);
   void raise_odds(double news);
   void drop_contradicted(const HypothesesOptions& options);

@@ -1,0 +1,232 @@
+// Drives through a mine whose middle is missing: the vehicle is carried off, or nobody says where
+// it starts. How far it drives until it is `ok` and right again, and whether it is ever `ok` and
+// wrong.
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "adit/localizer/localizer.hpp"
+#include "adit/simulation/clutter.hpp"
+#include "locate_options.hpp"
+#include "locate_scene.hpp"
+#include "splice.hpp"
+
+namespace adit {
+namespace {
+
+constexpr std::uint64_t kRoam = 51;  // stream of the seed
+constexpr std::uint64_t kSecondRecording = 1000000007;
+constexpr double kRight = 1.0;  // m
+constexpr double kBefore = 15.0;
+constexpr double kAfter = 40.0;
+
+/// A drive that keeps clear of the walls: on where there is room, else towards the most of it.
+std::vector<Pose2> roam(const RayCaster& caster, const Pose2& start, double metres) {
+  constexpr double kStep = 0.5;
+  constexpr double kLook = 15.0;
+  constexpr double kAhead = 3.0;  // m of room that need no turn
+  constexpr double kAside = 1.0;  // m
+  std::vector<Pose2> path = {start};
+  const auto room = [&](const Vector2d& from, double heading) {
+    return caster.range(from, unit_vector(heading), kLook);
+  };
+  while (kStep * static_cast<double>(path.size()) < metres) {
+    const Pose2& at = path.back();
+    double best = 0.0;
+    double most = -1.0;
+    for (int i = -18; i <= 18; ++i) {
+      const double turn = radians(5.0 * i);
+      const double ahead = std::min(room(at.translation(), at.theta + turn), kLook);
+      const double aside = std::min({room(at.translation(), at.theta + turn + 0.5),
+                                     room(at.translation(), at.theta + turn - 0.5), 2.0 * kAside});
+      const double value = std::min(ahead, kAhead) + 0.1 * ahead + aside - 0.8 * std::abs(turn);
+      if (value > most) {
+        most = value;
+        best = turn;
+      }
+    }
+    const double heading = wrap_angle(at.theta + std::clamp(best, -0.4, 0.4));
+    const Vector2d next = at.translation() + kStep * unit_vector(heading);
+    if (room(at.translation(), heading) < kStep + 0.5) {
+      path.push_back({at.x, at.y, wrap_angle(at.theta + 0.4)});
+      if (path.size() > 1000) break;
+      continue;
+    }
+    path.push_back({next.x(), next.y(), heading});
+  }
+  return path;
+}
+
+/// What came of one drive.
+struct Outcome {
+  double metres_to_right = -1.0;  // `ok` and right again after so much driving; negative for never
+  int trusted = 0;
+  int trusted_wrong = 0;
+  int scans = 0;
+};
+
+/// Runs through the mine of a scene.
+class Mine {
+ public:
+  Mine(const LocateScene& scene, const LocateOptions& options)
+      : scene_(scene), options_(options), spec_(*scanner_named(options.scanner)) {
+    world_.walls = segments();
+    caster_ = RayCaster(world_.walls);
+    PlaceIndexOptions places;
+    index_ =
+        std::make_shared<const PlaceIndex>(PlaceIndex::build(scene.map, places, options.threads));
+  }
+
+  Outcome kidnapped(std::size_t run) const {
+    const std::size_t n = scene_.cases.size();
+    const Pose2& from = *scene_.cases[run % n].truth;
+    std::size_t other = (run + n / 2) % n;
+    while ((scene_.cases[other].truth->translation() - from.translation()).norm() < 10.0) {
+      other = (other + 1) % n;
+    }
+    const std::uint64_t seed = options_.seed + run;
+    Recording first = record(roam(caster_, from, kBefore), seed);
+    const std::size_t parted = first.scans.size();
+    const Recording second =
+        record(roam(caster_, *scene_.cases[other].truth, kAfter), seed + kSecondRecording);
+    const Recording all = spliced(std::move(first), second);
+    Localizer localizer(scene_.map, settings(), index_);
+    localizer.start(all.first_guess.pose, all.first_guess.covariance);
+    return follow(localizer, all, parted);
+  }
+
+  Outcome anywhere(std::size_t run) const {
+    const Recording all = record(
+        roam(caster_, *scene_.cases[run % scene_.cases.size()].truth, kAfter), options_.seed + run);
+    Localizer localizer(scene_.map, settings(), index_);
+    localizer.start_anywhere();
+    return follow(localizer, all, 0);
+  }
+
+ private:
+  std::vector<Segment> segments() const {
+    std::vector<Segment> walls;
+    for (const Wall& wall : scene_.map.walls()) walls.push_back(wall.segment);
+    return walls;
+  }
+
+  LocalizerSettings settings() const {
+    LocalizerSettings settings;
+    settings.scanner = scene_.scanner;
+    settings.odometry = mockup_odometry();
+    settings.map.sigma_m = options_.map_sigma;
+    return settings;
+  }
+
+  Recording record(const std::vector<Pose2>& path, std::uint64_t seed) const {
+    constexpr double kNearby = 60.0;  // farther walls are in no clutter's way (m)
+    World world;
+    for (const Segment& wall : world_.walls) {
+      if (distance(wall, path.front().translation()) < kNearby) world.walls.push_back(wall);
+    }
+    world.path = path;
+    add_clutter(world, clutter_of(options_.clutter), seed);
+    world.walls = world_.walls;
+    return record_drive(world, path, spec_, {}, seed);
+  }
+
+  static Outcome follow(Localizer& localizer, const Recording& drive, std::size_t parted) {
+    Outcome out;
+    double metres = 0.0;
+    for (std::size_t i = 0; i < drive.scans.size(); ++i) {
+      const Estimate& e = localizer.update(drive.scans[i], drive.odometry[i]);
+      if (i < parted) continue;
+      const Pose2& truth = drive.truth[i].pose;
+      if (i > parted)
+        metres += (truth.translation() - drive.truth[i - 1].pose.translation()).norm();
+      const Vector3d off = difference(truth, e.pose);
+      const bool right = off.head<2>().norm() < kRight && std::abs(off.z()) < radians(5.0);
+      const bool trusted = e.status == Status::ok || e.status == Status::degraded;
+      ++out.scans;
+      out.trusted += trusted ? 1 : 0;
+      out.trusted_wrong += trusted && !right ? 1 : 0;
+      if (trusted && right && out.metres_to_right < 0.0) out.metres_to_right = metres;
+    }
+    return out;
+  }
+
+  const LocateScene& scene_;
+  const LocateOptions& options_;
+  ScannerSpec spec_;
+  World world_;
+  RayCaster caster_;
+  std::shared_ptr<const PlaceIndex> index_;
+};
+
+void print(const char* name, std::span<const Outcome> outcomes) {
+  std::vector<double> metres;
+  int within = 0;
+  int never = 0;
+  int wrong_runs = 0;
+  int wrong = 0;
+  double trusted = 0.0;
+  double scans = 0.0;
+  for (const Outcome& outcome : outcomes) {
+    if (outcome.metres_to_right >= 0.0) metres.push_back(outcome.metres_to_right);
+    within += outcome.metres_to_right >= 0.0 && outcome.metres_to_right <= 10.0 ? 1 : 0;
+    never += outcome.metres_to_right < 0.0 ? 1 : 0;
+    wrong_runs += outcome.trusted_wrong > 0 ? 1 : 0;
+    wrong += outcome.trusted_wrong;
+    trusted += outcome.trusted;
+    scans += outcome.scans;
+  }
+  std::sort(metres.begin(), metres.end());
+  const double median = metres.empty() ? 0.0 : metres[metres.size() / 2];
+  fmt::print(
+      "{:<10} runs {}  ok and right within 10 m: {}  never: {}  median way {:.1f} m  trusted "
+      "{:.1f} "
+      "% of {} scans  ok and wrong: {} scans in {} runs\n",
+      name, outcomes.size(), within, never, median, 100.0 * trusted / std::max(1.0, scans), scans,
+      wrong, wrong_runs);
+}
+
+int run(const LocateOptions& options) {
+  const auto scene = make_locate_scene(options);
+  if (!scene) {
+    fmt::print(stderr, "{}\n", to_string(scene.error()));
+    return 1;
+  }
+  const Mine mine(*scene, options);
+  std::vector<Outcome> kidnapped;
+  std::vector<Outcome> anywhere;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(options.count); ++i) {
+    kidnapped.push_back(mine.kidnapped(i));
+    if (options.worst > 0 &&
+        (kidnapped.back().trusted_wrong > 0 || kidnapped.back().metres_to_right < 0.0)) {
+      fmt::print("kidnapped {}: {} trusted wrongly, right after {:.1f} m\n", i,
+                 kidnapped.back().trusted_wrong, kidnapped.back().metres_to_right);
+    }
+    anywhere.push_back(mine.anywhere(i));
+    if (options.worst > 0 &&
+        (anywhere.back().trusted_wrong > 0 || anywhere.back().metres_to_right < 0.0)) {
+      fmt::print("anywhere {}: {} trusted wrongly, right after {:.1f} m\n", i,
+                 anywhere.back().trusted_wrong, anywhere.back().metres_to_right);
+    }
+  }
+  print("kidnapped", kidnapped);
+  print("anywhere", anywhere);
+  return 0;
+}
+
+}  // namespace
+}  // namespace adit
+
+int main(int argc, char** argv) {
+  const auto options =
+      adit::parse_locate({argv + 1, static_cast<std::size_t>(std::max(0, argc - 1))});
+  if (!options) {
+    fmt::print(stderr, "{}\n{}", to_string(options.error()), adit::locate_usage());
+    return 2;
+  }
+  return adit::run(*options);
+}
