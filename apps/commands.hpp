@@ -33,10 +33,23 @@ struct SimulateArguments {
 struct LocalizeArguments {
   std::string map;
   std::string log;
-  std::optional<std::string> start;
+  std::optional<std::string> start;  ///< x,y,heading in degrees, or "anywhere"
+  std::string resume;                ///< last_pose.json of an earlier run
+  std::vector<double> moved;         ///< since then, one sigma: m, degrees
+  std::string level;                 ///< of a plan with levels
+  std::optional<int> threads;
   std::string config;
   std::string output = "adit-localize";
   std::string estimator = "full";
+};
+
+struct LocateArguments {
+  std::string map;
+  std::string scan;  ///< LOG:INDEX or LOG:all
+  std::string config;
+  std::string output;          ///< a picture
+  std::optional<int> threads;  ///< none: one searches, all cores make the index
+  bool json = false;
 };
 
 struct EvaluateArguments {
@@ -49,6 +62,15 @@ struct EvaluateArguments {
 struct MapArguments {
   std::string plan;
   std::string output;
+};
+
+struct AliasesArguments {
+  std::string plan;
+  std::string scanner = "cyclone";
+  std::optional<double> pitch;  ///< m; none: by the number of places
+  std::optional<int> threads;
+  std::string config;
+  std::string output;  ///< a picture
 };
 
 struct PlotArguments {
@@ -64,12 +86,14 @@ struct PlotArguments {
 int run_demo(const DemoArguments& arguments);
 int run_simulate(const SimulateArguments& arguments);
 int run_localize(const LocalizeArguments& arguments);
+int run_locate(const LocateArguments& arguments);
 /// What `estimator` may be.
 std::vector<std::string> estimator_names();
 int run_evaluate(const EvaluateArguments& arguments);
 int run_map_info(const MapArguments& arguments);
 int run_map_check(const MapArguments& arguments);
 int run_map_convert(const MapArguments& arguments);
+int run_map_aliases(const AliasesArguments& arguments);
 int run_plot_map(const PlotArguments& arguments);
 int run_plot_scan(const PlotArguments& arguments);
 int run_plot_features(const PlotArguments& arguments);

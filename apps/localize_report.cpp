@@ -147,9 +147,11 @@ Json spread(std::vector<Value> values, double unit) {
 }  // namespace
 
 Json localize_report(const LogSettings& settings, const MapReport& cleaning, const LogSummary& log,
-                     const Replay& replay) {
+                     const RunOrigin& origin, const Replay& replay) {
   Json json = Json::object();
   json["estimator"] = word_of(settings.configuration.localizer.estimator);
+  json["start"] = origin.start;
+  if (!origin.level.empty()) json["level"] = origin.level;
   json["scans"] = replay.rows.size();
   for (const Status status : kStatuses) {
     json["by_status"][to_string(status)] = count_of(replay, status);

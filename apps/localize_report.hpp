@@ -9,10 +9,16 @@
 
 namespace adit {
 
+/// Where a run began, and on which level of the plan (empty where it has none).
+struct RunOrigin {
+  std::string start;
+  std::string level;
+};
+
 /// report.json of `adit localize`: what was read, with which settings, and how it went. Holds no
 /// wall-clock times.
 Json localize_report(const LogSettings& settings, const MapReport& cleaning, const LogSummary& log,
-                     const Replay& replay);
+                     const RunOrigin& origin, const Replay& replay);
 
 /// timings.json: microseconds by stage, over the scans that had it.
 Json timings_report(const std::vector<Timings>& timings);

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <functional>
+#include <optional>
 
 #include "commands.hpp"
 
@@ -51,16 +52,35 @@ void add_simulate(CLI::App& app, adit::SimulateArguments& args, Action& action) 
   command->callback([&] { action = [&] { return run_simulate(args); }; });
 }
 
+constexpr const char* kPlanOrLevels =
+    "plan, in metres; or a folder with one plan for each level of the mine";
+
+void add_threads(CLI::App* command, std::optional<int>& threads, const char* text) {
+  command->add_option("--threads", threads, text)->check(CLI::Range(1, 256));
+}
+
 void add_localize(CLI::App& app, adit::LocalizeArguments& args, Action& action) {
   CLI::App* command =
       app.add_subcommand("localize",
                          "Where the machine was at every scan of a log: trajectory.tum, "
-                         "estimates.csv, report.json, timings.json");
-  command->add_option("--map", args.map, "plan, in metres")->required();
+                         "estimates.csv, last_pose.json, report.json, timings.json");
+  command->add_option("--map", args.map, kPlanOrLevels)->required();
   command->add_option("--log", args.log, "CARMEN log")->required();
   command->add_option("--start", args.start,
-                      "pose at the first scan: x,y,heading in m, m, degrees (default: the log's "
-                      "first odometry pose)");
+                      "pose at the first scan: x,y,heading in m, m, degrees; or anywhere, to look "
+                      "for it in the whole plan (default: the log's first odometry pose)");
+  command->add_option("--resume", args.resume,
+                      "last_pose.json of an earlier run: begin there, if the scans bear it out");
+  command
+      ->add_option("--moved", args.moved,
+                   "with --resume: how far the machine may have been moved since, one sigma in m "
+                   "and degrees (default: 0.25,4)")
+      ->delimiter(',')
+      ->expected(2)
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--level", args.level,
+                      "the level that the run is on, where the plan has several");
+  add_threads(command, args.threads, "threads that look at the plan (default: all cores)");
   command->add_option("--config", args.config, "TOML file; see 'adit config --reference'");
   command->add_option("-o,--output", args.output, "folder for the results")->capture_default_str();
   command
@@ -70,6 +90,37 @@ void add_localize(CLI::App& app, adit::LocalizeArguments& args, Action& action) 
       ->capture_default_str()
       ->check(CLI::IsMember(adit::estimator_names()));
   command->callback([&] { action = [&] { return run_localize(args); }; });
+}
+
+void add_locate(CLI::App& app, adit::LocateArguments& args, Action& action) {
+  CLI::App* command = app.add_subcommand(
+      "locate", "Every pose in the mine that explains a scan, the best first, without any other");
+  command->add_option("--map", args.map, kPlanOrLevels)->required();
+  command->add_option("--scan", args.scan, "LOG:INDEX, counting scans from 0, or LOG:all")
+      ->required();
+  command->add_option("--config", args.config, "TOML file; see 'adit config --reference'");
+  command->add_flag("--json", args.json, "print JSON, a line for each scan");
+  command->add_option("-o,--output", args.output, "a picture of the poses over the plan");
+  add_threads(command, args.threads,
+              "threads that look for scans, each for one (default: 1, and all cores for what is "
+              "done once for the plan); the answers are the same");
+  command->callback([&] { action = [&] { return run_locate(args); }; });
+}
+
+void add_aliases(CLI::App* map, adit::AliasesArguments& args, Action& action) {
+  CLI::App* command = map->add_subcommand(
+      "aliases", "Where in a plan one scan tells the place, and which places look the same");
+  command->add_option("plan", args.plan, "the plan's file")->required();
+  command->add_option("--scanner", args.scanner, "cyclone, sick, sick_lms or hokuyo")
+      ->capture_default_str();
+  command
+      ->add_option("--pitch", args.pitch,
+                   "places lie so far apart, in m (default: so that there are some 500)")
+      ->check(CLI::Range(0.05, 1e6));
+  command->add_option("-o,--output", args.output, "a picture of the places and the links");
+  command->add_option("--config", args.config, "TOML file; see 'adit config --reference'");
+  add_threads(command, args.threads, "threads (default: all cores); the answers are the same");
+  command->callback([&] { action = [&] { return run_map_aliases(args); }; });
 }
 
 void add_evaluate(CLI::App& app, adit::EvaluateArguments& args, Action& action) {
@@ -82,7 +133,8 @@ void add_evaluate(CLI::App& app, adit::EvaluateArguments& args, Action& action) 
   command->callback([&] { action = [&] { return run_evaluate(args); }; });
 }
 
-void add_map(CLI::App& app, adit::MapArguments& args, Action& action) {
+void add_map(CLI::App& app, adit::MapArguments& args, adit::AliasesArguments& aliases,
+             Action& action) {
   CLI::App* command = app.add_subcommand("map", "Look at, check and convert plans");
   command->require_subcommand(1);
   const auto add = [&](const char* name, const char* text, int (*run)(const adit::MapArguments&)) {
@@ -98,6 +150,7 @@ void add_map(CLI::App& app, adit::MapArguments& args, Action& action) {
   add("convert", "Write the cleaned plan in another form", adit::run_map_convert)
       ->add_option("-o,--output", args.output, "the file to write (.csv)")
       ->required();
+  add_aliases(command, aliases, action);
 }
 
 void add_plot(CLI::App& app, adit::PlotArguments& args, Action& action) {
@@ -147,16 +200,19 @@ int main(int argc, char** argv) {
   adit::DemoArguments demo;
   adit::SimulateArguments simulate;
   adit::LocalizeArguments localize;
+  adit::LocateArguments locate;
   adit::EvaluateArguments evaluate;
   adit::MapArguments map;
+  adit::AliasesArguments aliases;
   adit::PlotArguments plot;
   bool reference = false;
   Action action;
   add_demo(app, demo, action);
   add_simulate(app, simulate, action);
   add_localize(app, localize, action);
+  add_locate(app, locate, action);
   add_evaluate(app, evaluate, action);
-  add_map(app, map, action);
+  add_map(app, map, aliases, action);
   add_plot(app, plot, action);
   CLI::App* config =
       app.add_subcommand("config", "Print a configuration file with every key at its default");

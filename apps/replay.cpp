@@ -1,6 +1,7 @@
 #include "replay.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "adit/scan/sweep_timing.hpp"
 #include "progress.hpp"
@@ -33,13 +34,27 @@ class OdometryFeed {
   std::size_t next_ = 0;
 };
 
+void begin(Localizer& localizer, const Beginning& beginning, const Log& log) {
+  if (beginning.is_anywhere) {
+    localizer.start_anywhere();
+  } else {
+    localizer.start(beginning.pose.value_or(log.scans.front().odom_from_vehicle),
+                    beginning.covariance);
+  }
+}
+
 }  // namespace
 
 Replay replay(const Log& log, const LineMap& map, const LocalizerSettings& settings,
               const std::optional<Pose2>& start) {
+  return replay(log, map, settings, Beginning{false, start, std::nullopt}, nullptr);
+}
+
+Replay replay(const Log& log, const LineMap& map, const LocalizerSettings& settings,
+              const Beginning& beginning, std::shared_ptr<const PlaceIndex> places) {
   Replay result;
-  Localizer localizer(map, settings);
-  localizer.start(start.value_or(log.scans.front().odom_from_vehicle));
+  Localizer localizer(map, settings, std::move(places));
+  begin(localizer, beginning, log);
   OdometryFeed odometry(log, settings);
   Progress progress("localizing", log.scans.size());
   for (const LogScan& entry : log.scans) {

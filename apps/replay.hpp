@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -21,7 +22,20 @@ struct Replay {
 /// Gives each scan its own odometry pose, and the localizer those of the log's ODOM messages that a
 /// machine would have when the scan's sweep is over: all that the log has before the scan, and what
 /// follows up to the sweep's end. Messages stamped by a clock that is not the scans' are left out.
+///
+/// It begins at `start`, or where the odometry does.
 Replay replay(const Log& log, const LineMap& map, const LocalizerSettings& settings,
               const std::optional<Pose2>& start);
+
+/// What is known of the vehicle before the first scan.
+struct Beginning {
+  bool is_anywhere = false;            ///< nothing at all
+  std::optional<Pose2> pose;           ///< map_from_vehicle; none: the first odometry pose
+  std::optional<Matrix3d> covariance;  ///< none: the localizer's own
+};
+
+/// The same from any beginning; `places`, if given, is the index of the map for searches.
+Replay replay(const Log& log, const LineMap& map, const LocalizerSettings& settings,
+              const Beginning& beginning, std::shared_ptr<const PlaceIndex> places);
 
 }  // namespace adit

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,18 @@ struct ScanReference {
 
 /// Reads `LOG:INDEX`.
 Result<ScanReference> parse_scan_reference(const std::string& text);
+
+/// One scan of a log, or all.
+struct ScanSelection {
+  std::string log;
+  std::optional<std::size_t> index;  ///< counted from 0; none for all
+};
+
+/// Reads `LOG:INDEX` or `LOG:all`.
+Result<ScanSelection> parse_scan_selection(const std::string& text);
+
+/// An Error where the log of that name has no scan of that number.
+Result<void> check_index(std::size_t index, const Log& log, const std::string& name);
 
 /// One scan of a log, and the settings that its whole log would be replayed with.
 struct ReferencedScan {

@@ -163,7 +163,7 @@ bad_input() {
   bad file localize --map plan.csv --log log.clf -o file
   mkdir -p g/report.json
   bad report.json localize --map plan.csv --log log.clf -o g
-  absent g/trajectory.tum g/estimates.csv g/timings.json
+  absent g/trajectory.tum g/estimates.csv g/last_pose.json g/timings.json
   bad file simulate mockup -o file/below
 }
 
@@ -176,14 +176,15 @@ judged() {
 }
 # has_form FOLDER LOG: the files that localize leaves
 has_form() {
-  there "$1"/{trajectory.tum,estimates.csv,report.json,timings.json}
+  there "$1"/{trajectory.tum,estimates.csv,last_pose.json,report.json,timings.json}
   local scans
   scans=$(grep -c '^\(ROBOTLASER\|FLASER\)' "$2")
   head -n 1 "$1/estimates.csv" |
     grep -q '^t,x,y,theta,cov_xx,cov_xy,cov_xt,cov_yy,cov_yt,cov_tt,status,protection_m' ||
     die "the header of $1/estimates.csv"
   [ "$(lines_of "$1/estimates.csv")" -eq $((scans + 1)) ] || die "not one row for each of $scans scans"
-  [ "$(grep -c '^[^#]' "$1/trajectory.tum")" -eq "$scans" ] || die 'not one pose for each scan'
+  [ "$(grep -c '^[^#]' "$1/trajectory.tum")" -eq "$(awk -F, 'NR > 1 && $5 != "inf"' "$1/estimates.csv" | grep -c '')" ] ||
+    die 'not one pose for each scan whose pose is known'
   awk 'NF != 8 { exit 1 }' "$1/trajectory.tum" || die 'a row of trajectory.tum has not 8 columns'
   awk -F, 'NR > 1 && ($1 !~ /^[0-9]+\.[0-9][0-9][0-9][0-9][0-9][0-9]$/ || $11 !~ /^(ok|degraded|ambiguous|lost)$/) { exit 1 }' \
     "$1/estimates.csv" || die "stamps or statuses of $1/estimates.csv"
@@ -398,6 +399,225 @@ negative_start() {
   cmp one/estimates.csv two/estimates.csv
   expect 0 plot features --map plan.csv --pose -1,-2,-30 -o features.png
   is_png features.png
+}
+
+# gallery FILE: one long room with niches, none like another
+gallery() {
+  printf '0,0,40,0\n40,0,40,6\n40,6,31,6\n31,6,31,9\n31,9,26,9\n26,9,26,6\n26,6,12,6\n12,6,12,13\n12,13,8,13\n8,13,8,6\n8,6,0,6\n0,6,0,0\n' >"$1"
+}
+# gallery_drive: a drive through it, in the folder sim
+gallery_drive() {
+  gallery plan.csv
+  printf '0 5 3 0 0 0 0 1\n1 20 2.5 0 0 0 0 1\n2 28 6 0 0 0 0.7071067812 0.7071067812\n' >path.tum
+  expect 0 simulate plan.csv --path path.tum --scanner sick --speed 2 --seed 4 -o sim
+}
+# json_poses FILE KEY: that number of every pose of every line, a line each
+json_poses() { grep -o "\"$2\":[-0-9.e+]*" "$1" | cut -d: -f2; }
+
+locate() {
+  gallery_drive
+  expect 0 locate --map sim/plan.csv --scan sim/log.clf:0 --config sim/config.toml --json
+  [ "$(lines_of out)" -eq 1 ] || die 'not one line for one scan'
+  prints '^\{"status":"ok","poses":\[\{"x":[-0-9.e]+,"y":[-0-9.e]+,"theta":[-0-9.e]+,"weight":[0-9.e]+,"cov":\[([-0-9.e]+,){5}[-0-9.e]+\]\}.*\],"elapsed_s":[0-9.e-]+\}$'
+  says 'index of [0-9]+ places'
+  in_range x "$(json_poses out x | head -n 1)" 4.9 5.1
+  in_range y "$(json_poses out y | head -n 1)" 2.9 3.1
+  in_range heading "$(json_poses out theta | head -n 1)" -0.02 0.02
+  in_range 'sum of the weights' "$(json_poses out weight | awk '{ sum += $1 } END { print sum }')" 0.999 1.001
+  # the same for people, without a configuration, and with a picture
+  local ending
+  for ending in png svg pdf; do
+    expect 0 locate --map sim/plan.csv --scan sim/log.clf:0 -o poses.$ending
+    there poses.$ending
+  done
+  prints '^scan 0: ok'
+  prints '1\.0000 +[45]\.[0-9]+ +[23]\.[0-9]+'
+  is_png poses.png
+  grep -q '<svg' poses.svg || die 'poses.svg is no SVG'
+  # every scan, by any number of threads
+  local scans
+  scans=$(grep -c ^ROBOTLASER1 sim/log.clf)
+  for threads in 1 3; do
+    expect 0 locate --map sim/plan.csv --scan sim/log.clf:all --config sim/config.toml --json --threads $threads
+    [ "$(lines_of out)" -eq "$scans" ] || die "not one line for each of $scans scans"
+    sed 's/"elapsed_s".*//' out >answers$threads
+  done
+  cmp answers1 answers3
+  in_range 'scans that are ok' "$(grep -c '^{"status":"ok"' answers1)" $((scans * 8 / 10)) "$scans"
+  # where the vehicle is, not its scanner: the mounting turns and shifts the laser's pose
+  awk '/^ROBOTLASER1/ { n = $9; o = 9 + n + 1; k = $o; o += k + 1
+         x = $o; y = $(o + 1); t = $(o + 2)
+         $(o + 3) = x - 0.4 * cos(t); $(o + 4) = y - 0.4 * sin(t) }
+       { print }' sim/log.clf >mounted.clf
+  expect 0 locate --map sim/plan.csv --scan mounted.clf:0 --json
+  in_range 'x of the vehicle' "$(json_poses out x | head -n 1)" 4.5 4.7
+  # what it cannot be
+  expect 1 locate --map sim/plan.csv --scan sim/log.clf:"$scans" --json
+  says "sim/log.clf: has $scans scans"
+  [ ! -s out ] || die 'an answer to a scan that is not there'
+  local scan
+  for scan in sim/log.clf sim/log.clf: sim/log.clf:x sim/log.clf:-1 :all all; do
+    expect 2 locate --map sim/plan.csv --scan "$scan"
+  done
+  expect 2 locate --map sim/plan.csv --scan sim/log.clf:all -o all.png
+  expect 2 locate --map sim/plan.csv --scan sim/log.clf:0 -o poses.jpeg
+  expect 2 locate --map sim/plan.csv --scan sim/log.clf:0 --threads 0
+  expect 2 locate --map sim/plan.csv
+  absent all.png poses.jpeg
+  expect 1 locate --map none.csv --scan sim/log.clf:0
+  says none.csv
+}
+
+# Two places that look the same: both are told.
+locate_twins() {
+  printf '0,0,9,0\n9,0,9,4\n9,4,6,4\n6,4,6,7\n6,7,0,7\n0,7,0,0\n' >one.csv
+  { cat one.csv && awk -F, '{ print $1 + 100 "," $2 "," $3 + 100 "," $4 }' one.csv; } >plan.csv
+  printf '0 3 3 0 0 0 0 1\n' >path.tum
+  expect 0 simulate plan.csv --path path.tum --speed 0 --scanner cyclone -o sim
+  expect 0 locate --map plan.csv --scan sim/log.clf:0 --config sim/config.toml --json -o twins.png
+  prints '^\{"status":"ambiguous"'
+  json_poses out x | awk '$1 > 2.5 && $1 < 3.5 { a = 1 } $1 > 102.5 && $1 < 103.5 { b = 1 } END { exit !(a && b) }' ||
+    die 'not both places'
+  is_png twins.png
+  # where that is so, for all places of the plan
+  expect 0 map aliases plan.csv --pitch 2 -o aliases.png
+  prints '0\.0 %  one answer'
+  prints '[1-9][0-9]* +100\.0 %  ambiguous'
+  prints 'the worst pairs'
+  is_png aliases.png
+  cp out first
+  expect 0 map aliases plan.csv --pitch 2 --threads 1 -o aliases.png
+  cmp first out
+  gallery gallery.csv
+  expect 0 map aliases gallery.csv --scanner sick --pitch 4
+  in_range 'places with one answer (%)' "$(awk '/one answer/ { print $2 }' out)" 60 100
+  expect 2 map aliases plan.csv --scanner nonsense
+  expect 2 map aliases plan.csv --pitch 0
+  expect 2 map aliases plan.csv -o aliases.jpeg
+  expect 1 map aliases none.csv
+  says none.csv
+}
+
+# A plan of two levels: a folder with a file each.
+levels() {
+  gallery_drive
+  mkdir mine
+  cp sim/plan.csv mine/upper.csv
+  awk -F, '/^[-0-9]/ { print 1.5 * $1 "," 0.8 * $2 "," 1.5 * $3 "," 0.8 * $4 }' sim/plan.csv >mine/deep.csv
+  expect 0 locate --map mine --scan sim/log.clf:0 --config sim/config.toml --json
+  prints '^\{"status":"ok","poses":\[\{[^{]*\],"level":"upper"\}'
+  says 'level deep: index'
+  expect 0 locate --map mine --scan sim/log.clf:0 --config sim/config.toml -o level.png
+  prints 'upper$'
+  local common="localize --map mine --log sim/log.clf --config sim/config.toml"
+  # shellcheck disable=SC2086
+  {
+    expect 0 $common --level upper --start 5,3,0 -o named
+    expect 0 localize --map sim/plan.csv --log sim/log.clf --config sim/config.toml --start 5,3,0 -o plain
+    expect 0 $common --start anywhere -o found
+    expect 0 $common --level upper --start anywhere -o both
+    expect 2 $common --start 5,3,0 -o e
+    says 'deep, upper'
+    expect 2 $common --level lower --start 5,3,0 -o e
+    says 'deep, upper'
+    expect 2 localize --map sim/plan.csv --log sim/log.clf --level upper -o e
+  }
+  absent e
+  cmp named/estimates.csv plain/estimates.csv
+  cmp found/estimates.csv both/estimates.csv
+  grep -q '"level": "upper"' found/report.json || die 'the report does not say which level'
+  # the level of a saved pose
+  # shellcheck disable=SC2086
+  {
+    expect 0 $common --resume found/last_pose.json -o again
+    grep -q '"level": "upper"' again/last_pose.json || die 'the level is not kept'
+    expect 1 $common --resume found/last_pose.json --level deep -o e
+  }
+  says 'last_pose.json.*upper'
+  mkdir empty
+  expect 1 locate --map empty --scan sim/log.clf:0
+  says 'empty: .*no plan'
+}
+
+# Without any first pose: lost at first, with variances that say so, and right before long.
+anywhere() {
+  gallery_drive
+  local common="localize --map sim/plan.csv --log sim/log.clf --config sim/config.toml"
+  # shellcheck disable=SC2086
+  expect 0 $common --start anywhere -o one
+  has_form one sim/log.clf
+  grep -q '"start": "anywhere"' one/report.json || die 'the report does not say how it began'
+  awk -F, 'NR == 2 { exit !($11 == "lost" && $5 == "inf" && $8 == "inf" && $10 == "inf") }' one/estimates.csv ||
+    die 'the first row is not one of a pose that is not known'
+  awk -F, 'NR > 1 && $11 == "ok" { n++ } NR > 1 && $11 == "ok" && $5 == "inf" { bad = 1 } END { exit bad || n < 5 }' \
+    one/estimates.csv || die 'never found'
+  awk -F, 'NR == 1 || $11 == "ok"' one/estimates.csv >ok.csv
+  expect 0 evaluate --estimate ok.csv --truth sim/truth.tum --json
+  in_range 'largest error of an ok pose' "$(json_number out position max)" 0 0.2
+  # shellcheck disable=SC2086
+  expect 0 $common --start anywhere --threads 1 -o two
+  local file
+  for file in estimates.csv report.json trajectory.tum last_pose.json; do cmp one/$file two/$file; done
+  # shellcheck disable=SC2086
+  expect 2 $common --start anywhere --estimator features -o e
+  # shellcheck disable=SC2086
+  expect 2 $common --start nowhere -o e
+  says anywhere
+  absent e
+}
+
+# The last pose of a run begins the next.
+resume() {
+  gallery_drive
+  local common="localize --map sim/plan.csv --config sim/config.toml"
+  # the first half of the drive, and the rest
+  awk '/^ROBOTLASER1/ { n++ } n <= 12 { print > "first.clf"; next } { print > "rest.clf" }' sim/log.clf
+  # shellcheck disable=SC2086
+  {
+    expect 0 $common --log first.clf --start 5,3,0 -o one
+    expect 0 $common --log rest.clf --resume one/last_pose.json -o two
+  }
+  there one/last_pose.json
+  has_form two rest.clf
+  grep '^[^#]' sim/truth.tum | tail -n +13 >rest.tum
+  judged two/estimates.csv rest.tum 0.05 0.2
+  grep -q '"start": "resumed"' two/report.json || die 'the report does not say how it began'
+  awk -F, 'NR > 1 && $11 != "ok" { exit 1 }' two/estimates.csv || die 'a right pose is not taken up'
+  # the last row of the estimates is what was saved
+  local row
+  row=$(tail -n 1 one/estimates.csv)
+  grep -q "\"x\": $(cut -d, -f2 <<<"$row")" one/last_pose.json || die 'another pose was saved'
+  # a wrong one is not trusted: elsewhere in the mine, and surely so
+  sed 's/"x": .*/"x": 33.0,/; s/"y": .*/"y": 2.0,/' one/last_pose.json >wrong.json
+  # shellcheck disable=SC2086
+  expect 0 $common --log rest.clf --resume wrong.json -o three
+  awk -F, 'NR == 1 || $11 == "ok"' three/estimates.csv >ok.csv
+  if [ "$(lines_of ok.csv)" -gt 1 ]; then
+    expect 0 evaluate --estimate ok.csv --truth sim/truth.tum --json
+    in_range 'largest error of an ok pose' "$(json_number out position max)" 0 0.3
+  fi
+  # one that was lost begins anywhere
+  sed 's/"status": .*/"status": "lost"/' one/last_pose.json >lost.json
+  # shellcheck disable=SC2086
+  {
+    expect 0 $common --log rest.clf --resume lost.json -o four
+    expect 0 $common --log rest.clf --start anywhere -o five
+    cmp four/estimates.csv five/estimates.csv
+    # what is no saved pose
+    printf '{"x": 1}' >short.json
+    printf 'x: 1\n' >text.json
+    sed 's/"status": .*/"status": "fine"/' one/last_pose.json >word.json
+    local file
+    for file in short.json text.json word.json absent.json one; do
+      expect 1 $common --log rest.clf --resume $file -o e
+      says "$file"
+      [ "$(lines_of err)" -eq 1 ] || die 'more than one line of complaint'
+    done
+    expect 2 $common --log rest.clf --resume one/last_pose.json --start 5,3,0 -o e
+    expect 2 $common --log rest.clf --resume one/last_pose.json --moved 1 -o e
+    expect 0 $common --log rest.clf --resume one/last_pose.json --moved 0,0 -o six
+  }
+  absent e
 }
 
 # sorted PLAN: its walls, whatever their order and direction

@@ -1,5 +1,7 @@
 // Where the pose is lost: the search in the whole mine, and the hypotheses that it leaves.
 
+#include <algorithm>
+
 #include "adit/localizer/localizer.hpp"
 #include "adit/relocation/fit_quality.hpp"
 
@@ -40,11 +42,12 @@ void Localizer::weigh_hypotheses(const LaserScan& scan) {
   if (is_decided && (is_confirmed_ || is_own)) {
     hypotheses_.clear();
     trust_.reset();
+    next_wait_ = 0;
     if (!is_own) trusted_m_ = 0.0;
     ambiguous_ = false;
   } else if (hypotheses_.is_hopeless()) {
     hypotheses_.clear();
-    scans_to_wait_ = settings_.recovery.scans_between;
+    wait_for_search();
   }
 }
 
@@ -66,7 +69,7 @@ void Localizer::take_search() {
   const auto most = static_cast<std::size_t>(settings_.relocation.listed);
   is_confirmed_ = !is_first && !is_news && found.poses.size() < most;
   if (hypotheses_.empty()) {
-    scans_to_wait_ = settings_.recovery.scans_between;
+    wait_for_search();
   } else if (is_first && !is_anywhere_) {
     if (trusted_m_ > settings_.hypotheses.own_way_m) {
       hypotheses_.add_own(tracker_, settings_.hypotheses);
@@ -74,6 +77,13 @@ void Localizer::take_search() {
       hypotheses_.add(tracker_.estimate(), settings_.hypotheses);
     }
   }
+}
+
+/// A search in vain: the next one later.
+void Localizer::wait_for_search() {
+  const RecoveryOptions& options = settings_.recovery;
+  scans_to_wait_ = std::max(options.scans_between, next_wait_);
+  next_wait_ = std::min(2 * scans_to_wait_, options.most_scans_between);
 }
 
 /// The estimate becomes this hypothesis, as it was before this scan.

@@ -106,7 +106,7 @@ void Localizer::forget() {
   is_anywhere_ = false;
   is_confirmed_ = false;
   trusted_m_ = std::numeric_limits<double>::infinity();  // by whoever states the start
-  scans_to_wait_ = 0;
+  scans_to_wait_ = next_wait_ = 0;
   estimate_ = Estimate{};
 }
 

@@ -124,6 +124,7 @@ class Localizer {
   RelocationQuery query_for(const LaserScan& scan) const;
   PlaceFinderOptions finder_options() const;
   void take_search();
+  void wait_for_search();
   void follow(const Hypotheses::Hypothesis& hypothesis, const RefinementInput& input);
   Matrix3d floored(const Matrix3d& covariance) const;
   Matrix3d shared_map_error() const;
@@ -160,6 +161,7 @@ class Localizer {
   double trusted_m_ = 0.0;     // way since the pose was found
   bool is_confirmed_ = false;  // a second search found no other pose
   bool is_anywhere_ = false;   // nothing is known of the pose
+  int next_wait_ = 0;          // after the next search in vain (scans)
   int scans_to_wait_ = 0;      // for the search's answer, or for the next search
 
   // Of this turn.

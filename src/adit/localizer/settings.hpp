@@ -80,6 +80,7 @@ struct RecoveryOptions {
   bool searches = true;
   int scans_for_search = 2;
   int scans_between = 5;
+  int most_scans_between = 80;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -89,7 +90,9 @@ struct RecoveryOptions {
           "the search runs beside the cycle; its answer is taken so many scans after the one that "
           "was looked for, no sooner and no later, so that a replay gives the same");
     field("scans_between", self.scans_between,
-          "after a search that found nothing, so many scans pass before the next");
+          "after a search that found nothing, so many scans pass before the next, ...");
+    field("most_scans_between", self.most_scans_between,
+          "... and after each further one twice as many, up to this");
   }
 };
 

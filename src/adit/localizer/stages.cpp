@@ -194,7 +194,10 @@ void Localizer::track_pose() {
   quality.agrees = tracker_.chi_square(fix) < gate;
   clear_ = quality.evidence_ratio > settings_.localizer.clear_evidence_ratio;
   believed_ = trust_.next(quality, way_m_, settings_.status) && hypotheses_.empty();
-  if (believed_) trusted_m_ += way_m_;
+  if (believed_) {
+    trusted_m_ += way_m_;
+    next_wait_ = 0;
+  }
   // What is not trusted may still be the truth: all that explains its scan is taken in.
   const bool helps = quality.converged && quality.agrees &&
                      quality.evidence_ratio > settings_.status.used_evidence_ratio;

@@ -123,6 +123,20 @@ Box joined(Box a, const Box& b) {
   return a;
 }
 
+std::vector<Vector2d> returns_of(const LaserScan& scan, const Pose2& map_from_laser) {
+  const RigidTransform carry_to_map(map_from_laser);
+  std::vector<Vector2d> points;
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
+    if (!scan.has_return(i)) continue;
+    points.push_back(carry_to_map.point(scan.ranges[i] * unit_vector(scan.bearing(i))));
+  }
+  return points;
+}
+
+MarkStyle range_point_style(std::size_t count) {
+  return {MarkShape::dot, count > 1500 ? 1.1 : 1.5, kScanColour};
+}
+
 std::vector<Vector2d> translations(std::span<const Pose2> poses) {
   std::vector<Vector2d> places;
   places.reserve(poses.size());

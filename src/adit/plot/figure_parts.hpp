@@ -9,6 +9,7 @@
 #include "adit/map/box.hpp"
 #include "adit/plot/canvas.hpp"
 #include "adit/plot/sheet.hpp"
+#include "adit/scan/laser_scan.hpp"
 
 // What several figures draw alike.
 namespace adit {
@@ -55,6 +56,12 @@ Box box_around(std::span<const Pose2> poses);
 
 /// The smallest box that holds both.
 Box joined(Box a, const Box& b);
+
+/// Where the beams of a scan met something, in the map.
+std::vector<Vector2d> returns_of(const LaserScan& scan, const Pose2& map_from_laser);
+
+/// How so many of them are drawn.
+MarkStyle range_point_style(std::size_t count);
 
 std::vector<Vector2d> translations(std::span<const Pose2> poses);
 

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "adit/plot/figure_parts.hpp"
@@ -11,27 +10,13 @@ namespace {
 constexpr FeatureStyle kExtracted{kSensedColour, 1.3, 4.0, true};
 constexpr ArrowStyle kHeading{ArrowHead::filled, 12.0, 0.8, kRobotColour};
 
-std::vector<Vector2d> returns(const LaserScan& scan, const Pose2& map_from_laser) {
-  const RigidTransform carry_to_map(map_from_laser);
-  std::vector<Vector2d> points;
-  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
-    if (!scan.has_return(i)) continue;
-    points.push_back(carry_to_map.point(scan.ranges[i] * unit_vector(scan.bearing(i))));
-  }
-  return points;
-}
-
-MarkStyle point_style(std::size_t count) {
-  return {MarkShape::dot, count > 1500 ? 1.1 : 1.5, kScanColour};
-}
-
 }  // namespace
 
 Result<void> draw_scan(const std::string& path, const ScanView& view,
                        const PictureOptions& options) {
   const Vector2d laser = view.map_from_laser.translation();
   std::vector<Vector2d> points;
-  if (view.scan) points = returns(*view.scan, view.map_from_laser);
+  if (view.scan) points = returns_of(*view.scan, view.map_from_laser);
   Box focus;
   for (const Vector2d& p : points) {
     if (p.allFinite()) focus.extend(p);
@@ -39,7 +24,7 @@ Result<void> draw_scan(const std::string& path, const ScanView& view,
   if (laser.allFinite() && (view.scan || view.features)) focus.extend(laser);
   if (view.features) focus.extend(box_around(*view.features, view.map_from_laser));
 
-  const MarkStyle point = point_style(points.size());
+  const MarkStyle point = range_point_style(points.size());
   Canvas canvas;
   canvas.show(view.plan.empty() && !focus.is_empty() ? focus.padded(0.04 * focus.size().maxCoeff())
                                                      : focused_view(view.plan, focus));

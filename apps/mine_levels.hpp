@@ -1,0 +1,39 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "adit/geometry/result.hpp"
+#include "adit/io/plan_levels.hpp"
+#include "adit/map/line_map.hpp"
+#include "adit/relocation/place_index.hpp"
+
+namespace adit {
+
+/// A level of a mine, ready to be searched.
+struct MineLevel {
+  std::string name;  ///< empty where the plan has no levels
+  LineMap map;
+  std::shared_ptr<const PlaceIndex> places;
+};
+
+/// How the index of a level is made.
+struct IndexSettings {
+  PlaceIndexOptions places;
+  int threads = 1;
+};
+
+/// The index of a plan; says on stderr what it holds and how long it took.
+std::shared_ptr<const PlaceIndex> index_of(const LineMap& map, const IndexSettings& settings,
+                                           const std::string& level);
+
+/// Cleans each level and makes its index.
+std::vector<MineLevel> prepare_levels(const std::vector<PlanLevel>& plans,
+                                      const LineMapOptions& cleaning,
+                                      const IndexSettings& settings);
+
+/// The names of the levels, with commas between.
+std::string names_of(const std::vector<PlanLevel>& plans);
+
+}  // namespace adit
