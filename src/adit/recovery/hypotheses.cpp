@@ -166,6 +166,12 @@ const Hypotheses::Hypothesis& Hypotheses::leader() const {
 bool Hypotheses::is_decided(const HypothesesOptions& options) const {
   if (all_.empty() || all_.front().weight < options.sure_weight) return false;
   const Hypothesis& best = all_.front();
+  const auto own = std::find_if(all_.begin(), all_.end(),
+                                [](const Hypothesis& hypothesis) { return hypothesis.is_own; });
+  // Where the plan is wrong another place may explain the scans better; not as long as the way
+  // here.
+  const bool own_holds = own != all_.end() && own->contradicted < options.scans_to_refute;
+  if (own_holds && !best.is_own) return false;
   return best.explained >= options.scans_to_confirm &&
          (best.is_own || best.explained_m >= options.way_to_confirm_m);
 }

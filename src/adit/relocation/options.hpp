@@ -62,16 +62,25 @@ struct RelocationOptions {
   double shorter_cap = 10.0;
   double longer_cap = 14.0;
   int first_bins = 16;
-  double kept_share = 0.03;
-  int fewest_kept = 1500;
-  int candidates = 600;
-  int coarsely_refined = 120;
-  int again_refined = 40;
-  int refined = 24;
+  double rated_share = 0.2;
+  int fewest_rated = 8000;
+  int compared = 8000;
+  int moved = 3000;
+  int moved_again = 400;
+  int first_beams = 40;
+  int quick_beams = 100;
+  int finished = 120;
+  int all_beams = 400;
+  double slack_ratio = 0.3;
+  int candidates = 60;
+  int agreeing = 12;
+  int coarsely_refined = 30;
+  int again_refined = 20;
+  int refined = 16;
   int listed = 20;
-  double doubt_m = 0.2;
-  double doubt_rad = 0.04;
-  double start_m = 0.35;
+  double doubt_m = 0.1;
+  double doubt_rad = 0.015;
+  double start_m = 0.2;
   double basin_m = 1.0;
   double basin_rad = 0.1;
   double merge_m = 0.5;
@@ -83,7 +92,8 @@ struct RelocationOptions {
   double apart_m = 1.0;
   double apart_rad = radians(5.0);
   double sure_evidence_ratio = 0.68;
-  double sure_evidence_per_behind = 3.0;
+  double sure_evidence_per_behind = 8.0;
+  double sure_evidence_per_error = 0.15;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -93,16 +103,31 @@ struct RelocationOptions {
     field("longer_cap", self.longer_cap, "and where it is longer: it went through rock");
     field("first_bins", self.first_bins,
           "so many bearings choose the places at which all are tried (at most 16)");
-    field("kept_share", self.kept_share, "those are this share of all places");
-    field("fewest_kept", self.fewest_kept, "but not fewer than this");
-    field("candidates", self.candidates, "of so many poses the likelihood is looked at");
+    field("rated_share", self.rated_share,
+          "this share of all places, by their ranges without regard to heading, is rated at all "
+          "headings");
+    field("fewest_rated", self.fewest_rated, "but not fewer than this");
+    field("compared", self.compared, "so many of them are compared with the scan in all bearings");
+    field("moved", self.moved,
+          "so many poses of those are moved onto the walls nearest to the scan");
+    field("moved_again", self.moved_again, "and the best of these moved on");
+    field("first_beams", self.first_beams, "first with so many beams");
+    field("quick_beams", self.quick_beams, "then with so many");
+    field("finished", self.finished, "the best of those once more");
+    field("all_beams", self.all_beams, "with so many");
+    field("slack_ratio", self.slack_ratio,
+          "walls may be nearer or farther from a place of the index by this part of its pitch");
+    field("candidates", self.candidates, "of so many of those the likelihood is looked at");
+    field("agreeing", self.agreeing,
+          "so many of them, those that agree most with the walls, are fitted however unlikely");
     field("coarsely_refined", self.coarsely_refined, "so many of them are fitted with some beams");
     field("again_refined", self.again_refined, "so many of those once more");
     field("refined", self.refined, "and so many of those with all points");
     field("listed", self.listed, "no more poses than this are given as answers");
-    field("doubt_m", self.doubt_m,
-          "likelihoods of poses from the index allow for walls that are so much nearer or farther, "
-          "one sigma (m)");
+    field(
+        "doubt_m", self.doubt_m,
+        "likelihoods of poses from the search allow for walls that are so much nearer or farther, "
+        "one sigma (m)");
     field("start_m", self.start_m, "how far off such a pose is, one sigma (m)");
     field("doubt_rad", self.doubt_rad, "the same for its heading (rad)");
     field("basin_m", self.basin_m,
@@ -124,7 +149,10 @@ struct RelocationOptions {
           "a pose is sure only where it explains this much of what a scan of nothing but the map's "
           "walls would ...");
     field("sure_evidence_per_behind", self.sure_evidence_per_behind,
-          "... and so much more per share of the returns from behind the map's walls");
+          "... and so much more per share of the returns from behind the map's walls ...");
+    field("sure_evidence_per_error", self.sure_evidence_per_error,
+          "... and by so much more where the plan errs as much as stated: a larger error lets more "
+          "poses agree by chance");
   }
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <thread>
 
 #include "adit/visibility/visibility.hpp"
@@ -108,11 +109,29 @@ PlaceIndex PlaceIndex::build(const LineMap& map, const PlaceIndexOptions& option
     index.cells_.insert(index.cells_.end(), row.cells.begin(), row.cells.end());
     index.codes_.insert(index.codes_.end(), row.codes.begin(), row.codes.end());
   }
+  index.sort_ranges();
+  index.walls_ = WallField(map);
   return index;
 }
 
+void PlaceIndex::sort_ranges() {
+  constexpr std::size_t kStep = kRangeBins / kRanks;
+  sorted_.resize((size() + kBlock - 1) / kBlock);
+  for (std::size_t place = 0; place < size(); ++place) {
+    SortedRanges& block = sorted_[place / kBlock];
+    RangeBands bands = codes_[place];
+    std::sort(bands.farthest.begin(), bands.farthest.end(), std::greater<>());
+    std::sort(bands.nearest.begin(), bands.nearest.end());
+    for (std::size_t rank = 0; rank < kRanks; ++rank) {
+      block.longest[rank][place % kBlock] = bands.farthest[rank * kStep];
+      block.shortest[rank][place % kBlock] = bands.nearest[rank * kStep];
+    }
+  }
+}
+
 std::size_t PlaceIndex::memory() const {
-  return cells_.capacity() * sizeof(Cell) + codes_.capacity() * sizeof(RangeBands);
+  return cells_.capacity() * sizeof(Cell) + codes_.capacity() * sizeof(RangeBands) +
+         sorted_.capacity() * sizeof(SortedRanges) + walls_.memory();
 }
 
 }  // namespace adit

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -8,14 +9,15 @@
 #include "adit/map/line_map.hpp"
 #include "adit/relocation/options.hpp"
 #include "adit/relocation/range_code.hpp"
+#include "adit/relocation/wall_field.hpp"
 
 namespace adit {
 
 /// What is in sight from the places of a plan where a scanner may stand.
 ///
-/// Places lie on a square lattice; each keeps its ranges as two bytes a bearing bin (map axes), 136
-/// bytes in all. Nobody knows the inside of a plan from its outside: places within rock are in it
-/// as well. The same with any number of threads.
+/// Places lie on a square lattice; each keeps its ranges as two bytes a bearing bin (map axes) and
+/// sorted, 168 bytes in all. Nobody knows the inside of a plan from its outside: places within
+/// rock are in it as well. The same with any number of threads.
 class PlaceIndex {
  public:
   PlaceIndex() = default;
@@ -34,6 +36,19 @@ class PlaceIndex {
   }
   const RangeBands& codes(std::size_t place) const { return codes_[place]; }
 
+  /// The ranges of so many places, sorted: what does not depend on the heading. The same rank of
+  /// all places lies together.
+  static constexpr std::size_t kBlock = 64;
+  static constexpr std::size_t kRanks = 16;
+  struct SortedRanges {
+    std::array<std::array<std::uint8_t, kBlock>, kRanks> longest{};   ///< rank 0: the longest
+    std::array<std::array<std::uint8_t, kBlock>, kRanks> shortest{};  ///< rank 0: the shortest
+  };
+  /// Block i is of the places from kBlock * i on.
+  std::span<const SortedRanges> sorted_ranges() const { return sorted_; }
+
+  const WallField& walls() const { return walls_; }
+
  private:
   /// Places follow each other row by row, and column by column within a row.
   struct Cell {
@@ -45,11 +60,14 @@ class PlaceIndex {
     std::vector<RangeBands> codes;
   };
   class RowBuilder;
+  void sort_ranges();
 
   Vector2d origin_ = Vector2d::Zero();
   double pitch_m_ = 1.0;
   std::vector<Cell> cells_;
   std::vector<RangeBands> codes_;
+  std::vector<SortedRanges> sorted_;
+  WallField walls_;
 };
 
 }  // namespace adit

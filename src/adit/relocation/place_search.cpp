@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <tuple>
@@ -34,16 +35,18 @@ struct DoubledBands {
 
 /// Adds what one bin of the scan says against all headings of a place. In bytes throughout, so that
 /// compilers make it vector instructions.
-inline void add_bin(const DoubledBands& plan, std::size_t bin, std::uint8_t scan, Caps caps,
+inline void add_bin(const DoubledBands& plan, std::size_t bin, const ScanCodes& scan, Caps caps,
                     std::array<std::uint8_t, kRangeBins>& costs) {
   const std::uint8_t* __restrict nearest = plan.nearest.data() + bin;
   const std::uint8_t* __restrict farthest = plan.farthest.data() + bin;
   std::uint8_t* __restrict sum = costs.data();
+  const std::uint8_t shortest = scan.shortest[bin];
+  const std::uint8_t longest = scan.longest[bin];
   for (std::size_t s = 0; s < kRangeBins; ++s) {
-    const std::uint8_t far = farthest[s] > scan ? farthest[s] : scan;
-    const std::uint8_t near = nearest[s] > scan ? nearest[s] : scan;
+    const std::uint8_t far = farthest[s] > shortest ? farthest[s] : shortest;
+    const std::uint8_t near = nearest[s] > longest ? nearest[s] : longest;
     const auto longer = static_cast<std::uint8_t>(far - farthest[s]);
-    const auto shorter = static_cast<std::uint8_t>(near - scan);
+    const auto shorter = static_cast<std::uint8_t>(near - longest);
     const std::uint8_t against_longer = longer < caps.longer ? longer : caps.longer;
     const std::uint8_t against_shorter = shorter < caps.shorter ? shorter : caps.shorter;
     sum[s] = static_cast<std::uint8_t>(sum[s] + against_longer + against_shorter);
@@ -57,30 +60,171 @@ Caps caps_of(const RelocationOptions& options) {
   return {byte(options.shorter_cap), byte(options.longer_cap)};
 }
 
+using ShiftCosts = std::array<std::uint16_t, kRangeBins>;
+
+/// What all bins say against each heading of a place.
+ShiftCosts compare_all(const DoubledBands& plan, const ScanCodes& scan, Caps caps) {
+  ShiftCosts sums{};
+  for (std::size_t first = 0; first < kRangeBins; first += kMostFirstBins) {
+    std::array<std::uint8_t, kRangeBins> costs{};
+    for (std::size_t b = first; b < first + kMostFirstBins; ++b) {
+      if (scan.seen[b]) add_bin(plan, b, scan, caps, costs);
+    }
+    for (std::size_t s = 0; s < kRangeBins; ++s) {
+      sums[s] = static_cast<std::uint16_t>(sums[s] + costs[s]);
+    }
+  }
+  return sums;
+}
+
+using BlockCosts = std::array<std::uint8_t, PlaceIndex::kBlock>;
+
+/// What a scan's sorted ranges say against the places of a block.
+BlockCosts rate_block(const PlaceIndex::SortedRanges& block, std::span<const std::uint8_t> sorted,
+                      std::uint8_t in_sight) {
+  constexpr std::size_t kStep = kRangeBins / PlaceIndex::kRanks;
+  constexpr std::uint8_t kCap = 7;  // 32 times this fits a byte
+  BlockCosts costs{};
+  for (std::size_t rank = 0; rank * kStep < sorted.size(); ++rank) {
+    const std::uint8_t longest = sorted[sorted.size() - 1 - rank * kStep];
+    const std::uint8_t shortest = sorted[rank * kStep];
+    const std::uint8_t* __restrict far = block.longest[rank].data();
+    const std::uint8_t* __restrict near = block.shortest[rank].data();
+    for (std::size_t i = 0; i < PlaceIndex::kBlock; ++i) {
+      const std::uint8_t reach = far[i] < in_sight ? far[i] : in_sight;
+      const std::uint8_t front = near[i] < in_sight ? near[i] : in_sight;
+      const auto longer = static_cast<std::uint8_t>((longest > reach ? longest : reach) - reach);
+      const auto shorter =
+          static_cast<std::uint8_t>((front > shortest ? front : shortest) - shortest);
+      costs[i] = static_cast<std::uint8_t>(costs[i] + (longer < kCap ? longer : kCap) +
+                                           (shorter < kCap ? shorter : kCap));
+    }
+  }
+  return costs;
+}
+
+bool agrees_more(const PlaceMatch& a, const PlaceMatch& b) {
+  const Pose2& p = a.map_from_laser;
+  const Pose2& q = b.map_from_laser;
+  return std::tie(b.agreement, p.y, p.x, p.theta) < std::tie(a.agreement, q.y, q.x, q.theta);
+}
+
+/// Numbers that were put in.
+class CellSet {
+ public:
+  CellSet(std::vector<std::uint64_t>& slots, std::size_t most) : slots_(slots) {
+    slots_.assign(std::bit_ceil(2 * most + 2), kFree);
+  }
+  /// False if it is in already.
+  bool insert(std::uint64_t cell) {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t slot = (cell * 0x9E3779B97F4A7C15u >> 20) & mask;
+    while (slots_[slot] != kFree) {
+      if (slots_[slot] == cell) return false;
+      slot = (slot + 1) & mask;
+    }
+    slots_[slot] = cell;
+    return true;
+  }
+
+ private:
+  static constexpr std::uint64_t kFree = ~std::uint64_t{0};
+  std::vector<std::uint64_t>& slots_;
+};
+
+/// A square of the plan and a sector of two bins.
+std::uint64_t cell_of(const Pose2& pose, double cell_m) {
+  const auto whole = [](double value) {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value)));
+  };
+  constexpr std::uint64_t kMask = (std::uint64_t{1} << 28) - 1;
+  const std::uint64_t sector = whole((pose.theta + kPi) / (2.0 * kRangeBinWidth));
+  return (sector & 63) << 56 | (whole(pose.x / cell_m) & kMask) << 28 |
+         (whole(pose.y / cell_m) & kMask);
+}
+
+// Matches that were moved to within this of each other are one (m, rad).
+constexpr double kSameMetres = 0.25;
+constexpr double kSameRadians = radians(2.0);
+
 }  // namespace
 
 std::span<const PlaceMatch> PlaceSearch::find(const PlaceIndex& index, const LaserScan& scan,
                                               const ScannerModel& scanner,
                                               const std::optional<SearchArea>& area,
                                               const RelocationOptions& options) {
+  const auto count = [](int value) { return static_cast<std::size_t>(std::max(1, value)); };
   found_.clear();
   matches_.clear();
-  const ScanCodes codes = code_scan(scan, scanner);
+  const ScanCodes codes = code_scan(scan, scanner, options.slack_ratio * index.pitch_m());
   if (index.empty() || codes.bins_seen == 0) return found_;
-  choose_bins(codes, std::min<std::size_t>(kMostFirstBins, static_cast<std::size_t>(
-                                                               std::max(1, options.first_bins))));
-  rate(index, codes, area, options);
-  lay_views(scan, scanner, index.pitch_m());
+  rate_sorted(index, codes, area);
   const auto share =
-      static_cast<std::size_t>(options.kept_share * static_cast<double>(places_.size()));
-  const std::size_t kept =
-      std::max(share, static_cast<std::size_t>(std::max(1, options.fewest_kept)));
-  const std::uint8_t bound = bound_for(kept);
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    if (ratings_[i] <= bound) try_views(index, places_[i], options);
+      static_cast<std::size_t>(options.rated_share * static_cast<double>(places_.size()));
+  keep_places(std::max(share, count(options.fewest_rated)));
+  choose_bins(codes, std::min(kMostFirstBins, count(options.first_bins)));
+  rate_headings(index, codes, options);
+  keep_places(count(options.compared));
+  compare(index, codes, options);
+  thin_out(count(options.moved), 2.0 * index.pitch_m());
+  const auto take = [](PlaceMatch& match, const QuickFit::Result& moved) {
+    match.map_from_laser = moved.map_from_laser;
+    match.agreement = moved.agreement;
+  };
+  quick_fit_.set_scan(scan, scanner, count(options.first_beams));
+  for (PlaceMatch& match : matches_) {
+    take(match, quick_fit_.approach(index.walls(), match.map_from_laser));
   }
-  thin_out(0.75 * index.pitch_m(), static_cast<std::size_t>(std::max(1, options.candidates)));
+  keep_agreeing(count(options.moved_again));
+  quick_fit_.set_scan(scan, scanner, count(options.quick_beams));
+  for (PlaceMatch& match : matches_) {
+    take(match, quick_fit_.settle(index.walls(), match.map_from_laser));
+  }
+  keep_agreeing(count(options.finished));
+  quick_fit_.set_scan(scan, scanner, count(options.all_beams));
+  for (PlaceMatch& match : matches_) {
+    take(match, quick_fit_.finish(index.walls(), match.map_from_laser));
+  }
+  choose(count(options.candidates));
   return found_;
+}
+
+/// What the ranges say against each place, turned as it may be: sorted by length, the scan's must
+/// not be longer than the place's, nor shorter.
+void PlaceSearch::rate_sorted(const PlaceIndex& index, const ScanCodes& scan,
+                              const std::optional<SearchArea>& area) {
+  std::vector<std::uint8_t> sorted;
+  for (std::size_t b = 0; b < kRangeBins; ++b) {
+    if (scan.seen[b]) sorted.push_back(scan.codes[b]);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  places_.clear();
+  ratings_.clear();
+  const auto blocks = index.sorted_ranges();
+  for (std::size_t block = 0; block < blocks.size(); ++block) {
+    const BlockCosts costs = rate_block(blocks[block], sorted, scan.farthest);
+    const std::size_t first = block * PlaceIndex::kBlock;
+    const std::size_t end = std::min(index.size(), first + PlaceIndex::kBlock);
+    for (std::size_t place = first; place < end; ++place) {
+      if (area && (index.position(place) - area->middle).norm() > area->radius_m) continue;
+      places_.push_back(static_cast<std::uint32_t>(place));
+      ratings_.push_back(costs[place - first]);
+    }
+  }
+}
+
+/// Keeps about so many places of the lowest ratings, and no fewer.
+void PlaceSearch::keep_places(std::size_t most) {
+  std::array<std::size_t, 256> counts{};
+  for (const std::uint8_t rating : ratings_) ++counts[rating];
+  std::size_t sum = 0;
+  std::size_t bound = 0;
+  while (bound < 255 && (sum += counts[bound]) < most) ++bound;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (ratings_[i] <= bound) places_[kept++] = places_[i];
+  }
+  places_.resize(kept);
 }
 
 /// Evenly spread over those that the scanner sees.
@@ -95,96 +239,79 @@ void PlaceSearch::choose_bins(const ScanCodes& scan, std::size_t count) {
 }
 
 /// What the chosen bins say against each place at its best heading.
-void PlaceSearch::rate(const PlaceIndex& index, const ScanCodes& scan,
-                       const std::optional<SearchArea>& area, const RelocationOptions& options) {
+void PlaceSearch::rate_headings(const PlaceIndex& index, const ScanCodes& scan,
+                                const RelocationOptions& options) {
   const Caps caps = caps_of(options);
-  places_.clear();
   ratings_.clear();
-  for (std::size_t place = 0; place < index.size(); ++place) {
-    if (area && (index.position(place) - area->middle).norm() > area->radius_m) continue;
+  for (const std::uint32_t place : places_) {
     const DoubledBands plan(index.codes(place), scan.farthest);
     std::array<std::uint8_t, kRangeBins> costs{};
-    for (const std::size_t b : bins_) add_bin(plan, b, scan.codes[b], caps, costs);
+    for (const std::size_t b : bins_) add_bin(plan, b, scan, caps, costs);
     std::uint8_t least = costs[0];
     for (const std::uint8_t cost : costs) least = std::min(least, cost);
-    places_.push_back(static_cast<std::uint32_t>(place));
     ratings_.push_back(least);
   }
 }
 
-/// The rating up to which about so many places are kept, and no fewer.
-std::uint8_t PlaceSearch::bound_for(std::size_t kept) const {
-  std::array<std::size_t, 256> counts{};
-  for (const std::uint8_t rating : ratings_) ++counts[rating];
-  std::size_t sum = 0;
-  for (std::size_t rating = 0; rating < counts.size(); ++rating) {
-    sum += counts[rating];
-    if (sum >= kept) return static_cast<std::uint8_t>(rating);
-  }
-  return 255;
-}
-
-/// Views from a quarter of the places' distance off, so that one of them is near a place, each also
-/// turned by half a bin.
-void PlaceSearch::lay_views(const LaserScan& scan, const ScannerModel& scanner, double pitch_m) {
-  views_.clear();
-  for (const double x : {-0.25, 0.25}) {
-    for (const double y : {-0.25, 0.25}) {
-      for (const double turn : {0.0, 0.5}) {
-        const Pose2 laser_from_eye{x * pitch_m, y * pitch_m, turn * kRangeBinWidth};
-        views_.push_back({inverse(laser_from_eye), code_scan(scan, scanner, laser_from_eye)});
-      }
-    }
-  }
-}
-
-/// Every heading of a place that is better than its neighbours becomes a match.
-void PlaceSearch::try_views(const PlaceIndex& index, std::size_t place,
-                            const RelocationOptions& options) {
+/// Every heading of a place that is better than its neighbours becomes a match; the best are kept.
+void PlaceSearch::compare(const PlaceIndex& index, const ScanCodes& scan,
+                          const RelocationOptions& options) {
   const Caps caps = caps_of(options);
-  const DoubledBands plan(index.codes(place), views_.front().codes.farthest);
-  const Vector2d position = index.position(place);
-  for (const View& view : views_) {
-    const ScanCodes& scan = view.codes;
-    ShiftCosts sums{};
-    for (std::size_t first = 0; first < kRangeBins; first += kMostFirstBins) {
-      std::array<std::uint8_t, kRangeBins> costs{};
-      for (std::size_t b = first; b < first + kMostFirstBins; ++b) {
-        if (scan.seen[b]) add_bin(plan, b, scan.codes[b], caps, costs);
-      }
-      for (std::size_t s = 0; s < kRangeBins; ++s) {
-        sums[s] = static_cast<std::uint16_t>(sums[s] + costs[s]);
-      }
-    }
+  for (const std::uint32_t place : places_) {
+    const DoubledBands plan(index.codes(place), scan.farthest);
+    const ShiftCosts sums = compare_all(plan, scan, caps);
+    const Vector2d position = index.position(place);
     for (std::size_t s = 0; s < kRangeBins; ++s) {
       const std::uint16_t before = sums[(s + kRangeBins - 1) % kRangeBins];
       const std::uint16_t after = sums[(s + 1) % kRangeBins];
       if (!(sums[s] < before && sums[s] <= after)) continue;
-      const Pose2 map_from_eye{position.x(), position.y(),
-                               wrap_angle(static_cast<double>(s) * kRangeBinWidth)};
-      matches_.push_back({map_from_eye * view.eye_from_laser, sums[s]});
+      // To the side of the better neighbour, as far as a parabola has it.
+      const double bend = before + after - 2.0 * sums[s];
+      const double part = bend > 0.0 ? 0.5 * (before - after) / bend : 0.0;
+      const double turn = (static_cast<double>(s) + part) * kRangeBinWidth;
+      matches_.push_back({{position.x(), position.y(), wrap_angle(turn)}, sums[s], 0.0F});
     }
   }
 }
 
-/// The best matches, none near a better one.
-void PlaceSearch::thin_out(double reach, std::size_t most) {
-  const auto better = [](const PlaceMatch& a, const PlaceMatch& b) {
-    if (a.cost != b.cost) return a.cost < b.cost;
-    const Pose2& p = a.map_from_laser;
-    const Pose2& q = b.map_from_laser;
-    return std::tie(p.x, p.y, p.theta) < std::tie(q.x, q.y, q.theta);
+/// Keeps the cheapest matches, one of each cell and sector.
+void PlaceSearch::thin_out(std::size_t most, double cell_m) {
+  const auto cheaper = [](const PlaceMatch& a, const PlaceMatch& b) {
+    return std::tie(a.cost, a.map_from_laser.y, a.map_from_laser.x, a.map_from_laser.theta) <
+           std::tie(b.cost, b.map_from_laser.y, b.map_from_laser.x, b.map_from_laser.theta);
   };
-  const std::size_t looked_at = std::min(matches_.size(), 20 * most);
-  std::partial_sort(matches_.begin(), matches_.begin() + static_cast<std::ptrdiff_t>(looked_at),
-                    matches_.end(), better);
-  for (std::size_t i = 0; i < looked_at && found_.size() < most; ++i) {
-    const Pose2& pose = matches_[i].map_from_laser;
-    const bool covered = std::any_of(found_.begin(), found_.end(), [&](const PlaceMatch& kept) {
-      const Vector3d apart = difference(kept.map_from_laser, pose);
-      return std::abs(apart.z()) < 1.1 * kRangeBinWidth && apart.head<2>().norm() < reach;
+  const std::size_t looked_at = std::min(matches_.size(), 8 * most);
+  const auto end = matches_.begin() + static_cast<std::ptrdiff_t>(looked_at);
+  if (looked_at < matches_.size()) {
+    std::nth_element(matches_.begin(), end, matches_.end(), cheaper);
+  }
+  matches_.erase(end, matches_.end());
+  std::sort(matches_.begin(), matches_.end(), cheaper);
+  CellSet taken(taken_, looked_at);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < looked_at && kept < most; ++i) {
+    if (taken.insert(cell_of(matches_[i].map_from_laser, cell_m))) matches_[kept++] = matches_[i];
+  }
+  matches_.resize(kept);
+}
+
+void PlaceSearch::keep_agreeing(std::size_t most) {
+  if (matches_.size() <= most) return;
+  std::nth_element(matches_.begin(), matches_.begin() + static_cast<std::ptrdiff_t>(most),
+                   matches_.end(), agrees_more);
+  matches_.resize(most);
+}
+
+/// The best that are left, none near a better one.
+void PlaceSearch::choose(std::size_t most) {
+  std::sort(matches_.begin(), matches_.end(), agrees_more);
+  for (const PlaceMatch& match : matches_) {
+    if (found_.size() >= most) break;
+    const bool known = std::any_of(found_.begin(), found_.end(), [&](const PlaceMatch& better) {
+      const Vector3d apart = difference(better.map_from_laser, match.map_from_laser);
+      return apart.head<2>().norm() < kSameMetres && std::abs(apart.z()) < kSameRadians;
     });
-    if (!covered) found_.push_back(matches_[i]);
+    if (!known) found_.push_back(match);
   }
 }
 

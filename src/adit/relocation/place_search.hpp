@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "adit/relocation/place_index.hpp"
+#include "adit/relocation/quick_fit.hpp"
 
 namespace adit {
 
@@ -15,13 +16,15 @@ struct SearchArea {
   double radius_m = 0.0;
 };
 
-/// A pose of the scanner at which the codes of scan and plan agree.
+/// A pose of the scanner at which scan and plan agree.
 struct PlaceMatch {
   Pose2 map_from_laser;
   std::uint16_t cost = 0;  ///< steps of the range code, summed over the bins
+  float agreement = 0.0F;  ///< share of the returns that lie at a wall
 };
 
-/// Holds a scan against every place of an index at every heading.
+/// Holds a scan against every place of an index at every heading: first the ranges whatever the
+/// heading, then some bearings, then all, ever fewer places; the best are moved onto the walls.
 class PlaceSearch {
  public:
   /// The best matches, each better than all near it, best first. The same on every machine.
@@ -31,26 +34,22 @@ class PlaceSearch {
                                    const RelocationOptions& options);
 
  private:
-  using ShiftCosts = std::array<std::uint16_t, kRangeBins>;
-
-  /// The scan as it would be from a place close by and turned a little.
-  struct View {
-    Pose2 eye_from_laser;
-    ScanCodes codes;
-  };
-
+  void rate_sorted(const PlaceIndex& index, const ScanCodes& scan,
+                   const std::optional<SearchArea>& area);
+  void keep_places(std::size_t most);
   void choose_bins(const ScanCodes& scan, std::size_t count);
-  void rate(const PlaceIndex& index, const ScanCodes& scan, const std::optional<SearchArea>& area,
-            const RelocationOptions& options);
-  std::uint8_t bound_for(std::size_t kept) const;
-  void lay_views(const LaserScan& scan, const ScannerModel& scanner, double pitch_m);
-  void try_views(const PlaceIndex& index, std::size_t place, const RelocationOptions& options);
-  void thin_out(double reach, std::size_t most);
+  void rate_headings(const PlaceIndex& index, const ScanCodes& scan,
+                     const RelocationOptions& options);
+  void compare(const PlaceIndex& index, const ScanCodes& scan, const RelocationOptions& options);
+  void thin_out(std::size_t most, double cell_m);
+  void keep_agreeing(std::size_t most);
+  void choose(std::size_t most);
 
-  std::vector<std::size_t> bins_;      // that choose the places
-  std::vector<std::uint32_t> places_;  // rated
-  std::vector<std::uint8_t> ratings_;
-  std::vector<View> views_;
+  std::vector<std::uint32_t> places_;  // still in the race
+  std::vector<std::uint8_t> ratings_;  // what speaks against each
+  std::vector<std::size_t> bins_;      // that choose among them
+  QuickFit quick_fit_;
+  std::vector<std::uint64_t> taken_;  // cells of matches that were kept, a hash table
   std::vector<PlaceMatch> matches_;
   std::vector<PlaceMatch> found_;
 };

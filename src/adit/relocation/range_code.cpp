@@ -19,8 +19,7 @@ std::uint8_t range_code(double range_m) {
   return static_cast<std::uint8_t>(std::lround(scale * std::log1p(range / kLinear)));
 }
 
-ScanCodes code_scan(const LaserScan& scan, const ScannerModel& scanner,
-                    const Pose2& laser_from_eye) {
+ScanCodes code_scan(const LaserScan& scan, const ScannerModel& scanner, double slack_m) {
   ScanCodes out;
   const double no_return = scanner.no_return_from(scan.max_range);
   out.farthest = range_code(no_return);
@@ -28,19 +27,18 @@ ScanCodes code_scan(const LaserScan& scan, const ScannerModel& scanner,
   for (std::size_t i = 0; i < scan.beams_of_one_turn(); ++i) {
     const double range = scan.ranges[i];
     const bool returned = range > 0.0 && range >= scanner.min_range_m && range < no_return;
-    const double met = returned ? range : no_return;
-    const Vector2d seen = met * unit_vector(scan.bearing(i)) - laser_from_eye.translation();
-    const double bearing = std::atan2(seen.y(), seen.x()) - laser_from_eye.theta;
-    const double turns = (bearing + kPi) / kTwoPi;
+    const double turns = (scan.bearing(i) + kPi) / kTwoPi;
     const double part = turns - std::floor(turns);
     const auto bin = std::min(kRangeBins - 1, static_cast<std::size_t>(part * kRangeBins));
-    bins[bin].push_back(returned ? seen.norm() : no_return);
+    bins[bin].push_back(returned ? range : no_return);
   }
   for (std::size_t b = 0; b < kRangeBins; ++b) {
     if (bins[b].empty()) continue;
-    const auto middle = bins[b].begin() + static_cast<std::ptrdiff_t>((bins[b].size() - 1) / 2);
-    std::nth_element(bins[b].begin(), middle, bins[b].end());
-    out.codes[b] = range_code(*middle);
+    std::sort(bins[b].begin(), bins[b].end());
+    const std::size_t last = bins[b].size() - 1;
+    out.codes[b] = range_code(bins[b][last / 2]);
+    out.shortest[b] = range_code(bins[b][last / 4] - slack_m);
+    out.longest[b] = range_code(bins[b][last - last / 4] + slack_m);
     out.seen[b] = true;
     ++out.bins_seen;
   }

@@ -6,7 +6,6 @@
 #include <span>
 
 #include "adit/geometry/angle.hpp"
-#include "adit/geometry/pose2.hpp"
 #include "adit/scan/laser_scan.hpp"
 #include "adit/scan/scanner_model.hpp"
 
@@ -27,15 +26,17 @@ inline constexpr std::uint8_t kNothingInSight = 250;
 /// A scan in the codes of the index, bin 0 from bearing -pi (laser axes).
 struct ScanCodes {
   RangeCodes codes{};
+  RangeCodes shortest{};  ///< as short as it may be from a place that is a little off ...
+  RangeCodes longest{};   ///< ... and as long
   std::array<bool, kRangeBins> seen{};  ///< false outside of the field of view
   std::size_t bins_seen = 0;
   std::uint8_t farthest = kNothingInSight;  ///< the code of a beam that brings no return
 };
 
-/// The median range of each bin's beams as it would be from another place near by,
-/// `laser_from_eye`; a beam without return counts as the farthest.
-ScanCodes code_scan(const LaserScan& scan, const ScannerModel& scanner,
-                    const Pose2& laser_from_eye = {});
+/// The median range of each bin's beams; a beam without return counts as the farthest. From a place
+/// that is off by `slack_m` they may be shorter and longer by as much, and where a bin has an edge,
+/// either side of it may fill it.
+ScanCodes code_scan(const LaserScan& scan, const ScannerModel& scanner, double slack_m = 0.0);
 
 /// The shortest and the longest range in each bin and a little beside it: where the bearing decides
 /// between near and far, either will do.

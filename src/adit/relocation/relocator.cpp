@@ -19,6 +19,9 @@ constexpr double kFittedDoubt = 0.02;
 // One that was fitted with few beams, once, by this (m).
 constexpr double kCoarseDoubt = 0.08;
 
+// Before poses were fitted their likelihoods differ by so many times more.
+constexpr double kUnfittedGaps = 3.0;
+
 /// Every so many beams of a scan.
 void thin(const LaserScan& scan, LaserScan& out) {
   const std::size_t stride = std::max<std::size_t>(1, scan.ranges.size() / kLeadingBeams);
@@ -68,7 +71,7 @@ const RelocationResult& Relocator::locate(const RelocationQuery& query,
   fit_coarsely(query, options);
   fit_all_points(query, options);
   weigh(options);
-  result_.verdict = verdict(options, status);
+  result_.verdict = verdict(query.map_error, options, status);
   return result_;
 }
 
@@ -77,7 +80,7 @@ double Relocator::likelihood_at(const RelocationQuery& query, const Pose2& map_f
   return likelihood_.at(map_, map_from_vehicle * query.scan.vehicle_from_laser, doubt_m);
 }
 
-/// The poses whose views resemble the scan, the most likely first.
+/// The poses whose views resemble the scan; those that agree most with the walls come first.
 void Relocator::rate_candidates(const RelocationQuery& query, const RelocationOptions& options) {
   hypotheses_.clear();
   const Pose2 laser_from_vehicle = inverse(query.scan.vehicle_from_laser);
@@ -114,26 +117,40 @@ static void keep_best(std::vector<Ranked>& ranked, std::size_t most,
   ranked.resize(kept);
 }
 
+/// Where a scan hardly shows how far along a drift it was taken, a pose that is a little off is an
+/// unlikely one before it is fitted: agreement with the walls counts as well.
 void Relocator::fit_coarsely(const RelocationQuery& query, const RelocationOptions& options) {
+  const auto agreeing =
+      std::min(hypotheses_.size(), static_cast<std::size_t>(std::max(0, options.agreeing)));
+  std::vector<Hypothesis> chosen(hypotheses_.begin(),
+                                 hypotheses_.begin() + static_cast<std::ptrdiff_t>(agreeing));
+  drop_hopeless(options, kUnfittedGaps);
   std::stable_sort(hypotheses_.begin(), hypotheses_.end(), [](const auto& a, const auto& b) {
     return a.log_likelihood > b.log_likelihood;
   });
   const auto most = static_cast<std::size_t>(std::max(1, options.coarsely_refined));
-  if (hypotheses_.size() > most) hypotheses_.resize(most);
+  for (const Hypothesis& hypothesis : hypotheses_) {
+    if (chosen.size() >= most) break;
+    const bool has = std::any_of(chosen.begin(), chosen.end(), [&](const Hypothesis& other) {
+      return other.pose.vector() == hypothesis.pose.vector();
+    });
+    if (!has) chosen.push_back(hypothesis);
+  }
+  hypotheses_ = std::move(chosen);
   thin(query.scan, thinned_);
   improve(query, kCoarseDoubt, options);
   keep_best(hypotheses_, static_cast<std::size_t>(std::max(1, options.again_refined)), options);
-  drop_hopeless(options);
+  drop_hopeless(options, 1.0);
   improve(query, kFittedDoubt, options);
   keep_best(hypotheses_, static_cast<std::size_t>(std::max(1, options.refined)), options);
-  drop_hopeless(options);
+  drop_hopeless(options, 1.0);
 }
 
 /// Those that are too unlikely beside the best to become so by another fit.
-void Relocator::drop_hopeless(const RelocationOptions& options) {
+void Relocator::drop_hopeless(const RelocationOptions& options, double gaps) {
   double best = -std::numeric_limits<double>::infinity();
   for (const Hypothesis& hypothesis : hypotheses_) best = std::max(best, hypothesis.log_likelihood);
-  const double least = best - options.hopeless_gap / likelihood_.share_of_news();
+  const double least = best - gaps * options.hopeless_gap / likelihood_.share_of_news();
   std::erase_if(hypotheses_, [&](const Hypothesis& h) { return h.log_likelihood < least; });
 }
 
@@ -160,7 +177,7 @@ void Relocator::fit_all_points(const RelocationQuery& query, const RelocationOpt
   for (const RankedPose& pose : result_.poses) {
     hypotheses_.push_back({pose.pose, likelihood_at(query, pose.pose, kFittedDoubt)});
   }
-  drop_hopeless(options);
+  drop_hopeless(options, 1.0);
   take_fits(query, error, options);
 }
 
@@ -218,7 +235,8 @@ void Relocator::weigh(const RelocationOptions& options) {
   for (RankedPose& pose : poses) pose.weight /= sum;
 }
 
-Status Relocator::verdict(const RelocationOptions& options, const StatusOptions& status) const {
+Status Relocator::verdict(const MapError& stated, const RelocationOptions& options,
+                          const StatusOptions& status) const {
   if (result_.poses.empty()) return Status::lost;
   const RankedPose& best = result_.poses.front();
   if (best.quality.returns < status.fewest_returns || !explains(best.quality, status)) {
@@ -229,8 +247,11 @@ Status Relocator::verdict(const RelocationOptions& options, const StatusOptions&
     if (!is_near(best.pose, pose.pose, options.apart_m, options.apart_rad)) rivals += pose.weight;
   }
   if (rivals > options.rival_weight) return Status::ambiguous;
-  const double asked =
-      options.sure_evidence_ratio + options.sure_evidence_per_behind * best.quality.behind_ratio;
+  const double error_ratio =
+      stated.sigma_m() > 0.0 ? result_.map_error.sigma_m() / stated.sigma_m() : 0.0;
+  const double asked = options.sure_evidence_ratio +
+                       options.sure_evidence_per_behind * best.quality.behind_ratio +
+                       options.sure_evidence_per_error * error_ratio;
   if (best.quality.evidence_ratio < asked) return Status::ambiguous;
   return open_direction(best.covariance, status) ? Status::degraded : Status::ok;
 }

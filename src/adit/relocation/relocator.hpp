@@ -65,7 +65,7 @@ class Relocator {
 
   void rate_candidates(const RelocationQuery& query, const RelocationOptions& options);
   void fit_coarsely(const RelocationQuery& query, const RelocationOptions& options);
-  void drop_hopeless(const RelocationOptions& options);
+  void drop_hopeless(const RelocationOptions& options, double gaps);
   void improve(const RelocationQuery& query, double doubt_m, const RelocationOptions& options);
   void fit_all_points(const RelocationQuery& query, const RelocationOptions& options);
   double likelihood_at(const RelocationQuery& query, const Pose2& map_from_vehicle, double doubt_m);
@@ -75,7 +75,8 @@ class Relocator {
                  const RelocationOptions& options);
   MapError likeliest_map_error(const RelocationQuery& query, const RelocationOptions& options);
   void weigh(const RelocationOptions& options);
-  Status verdict(const RelocationOptions& options, const StatusOptions& status) const;
+  Status verdict(const MapError& stated, const RelocationOptions& options,
+                 const StatusOptions& status) const;
 
   const LineMap& map_;
   const PlaceIndex& index_;

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "adit/geometry/pose2.hpp"
+#include "adit/relocation/wall_field.hpp"
+#include "adit/scan/laser_scan.hpp"
+#include "adit/scan/scanner_model.hpp"
+
+namespace adit {
+
+/// Moves a scan onto the walls nearest to its returns, in microseconds: what stands between, or
+/// lies hidden, it does not see. Thousands of poses are thus brought near enough to where they
+/// belong that their likelihoods can be compared.
+class QuickFit {
+ public:
+  /// Takes about so many of the returns of a scan, evenly spread.
+  void set_scan(const LaserScan& scan, const ScannerModel& scanner, std::size_t beams);
+
+  struct Result {
+    Pose2 map_from_laser;
+    float agreement = 0.0F;  ///< share of the returns that lie at a wall
+  };
+
+  /// A few steps from a pose that may be off by half a metre and a few degrees.
+  Result approach(const WallField& field, const Pose2& map_from_laser) const;
+
+  /// Some more, from one that is nearly there.
+  Result settle(const WallField& field, const Pose2& map_from_laser) const;
+
+  /// And the last.
+  Result finish(const WallField& field, const Pose2& map_from_laser) const;
+
+ private:
+  struct Point {
+    float x = 0.0F;  // laser axes (m)
+    float y = 0.0F;
+  };
+
+  /// What is near to where: returns must lie so near to a wall to count (one sigma, m).
+  Result fit(const WallField& field, const Pose2& map_from_laser,
+             std::span<const float> sigmas) const;
+  float agreement(const WallField& field, const Pose2& map_from_laser, float sigma_m) const;
+
+  std::vector<Point> points_;
+};
+
+}  // namespace adit

@@ -1,0 +1,94 @@
+#include "adit/relocation/wall_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace adit {
+namespace {
+
+constexpr float kReach = 1.5F;  // m
+constexpr float kPiece = 2.0F;  // walls are drawn in pieces no longer than this (m)
+
+// A plan with more squares than this has walls astray; the field covers none of it.
+constexpr double kMostSquares = 4.0e9;
+
+float squared_distance(const WallField::Line& line, float x, float y) {
+  const float dx = x - line.x;
+  const float dy = y - line.y;
+  const float along = dx * line.along_x + dy * line.along_y;
+  const float beyond = along - std::clamp(along, 0.0F, line.length);
+  const float across = dy * line.along_x - dx * line.along_y;
+  return beyond * beyond + across * across;
+}
+
+}  // namespace
+
+WallField::WallField(const LineMap& map) {
+  if (map.empty()) return;
+  const Vector2d size = map.bounds().size() + Vector2d::Constant(4.0 * kReach);
+  const Vector2d squares = kPerMetre * size;
+  if (!(squares.x() * squares.y() < kMostSquares)) return;
+  origin_ = map.bounds().min - Vector2d::Constant(2.0 * kReach);
+  width_ = static_cast<float>(size.x());
+  height_ = static_cast<float>(size.y());
+  tile_columns_ = (static_cast<std::int32_t>(squares.x()) >> kTileBits) + 1;
+  const std::int32_t tile_rows = (static_cast<std::int32_t>(squares.y()) >> kTileBits) + 1;
+  tiles_.assign(static_cast<std::size_t>(tile_rows) * static_cast<std::size_t>(tile_columns_), -1);
+  for (const Wall& wall : map.walls()) {
+    const Segment& segment = wall.segment;
+    const Vector2d a = segment.a - origin_;
+    const double length = segment.length();
+    const Vector2d along = (segment.b - segment.a) / length;
+    lines_.push_back({static_cast<float>(a.x()), static_cast<float>(a.y()),
+                      static_cast<float>(along.x()), static_cast<float>(along.y()),
+                      static_cast<float>(length)});
+    draw(static_cast<std::int32_t>(lines_.size() - 1));
+  }
+}
+
+/// Offers a wall to all squares near it.
+void WallField::draw(std::int32_t line) {
+  const Line& wall = lines_[static_cast<std::size_t>(line)];
+  const int pieces = 1 + static_cast<int>(wall.length / kPiece);
+  const float step = wall.length / static_cast<float>(pieces);
+  for (int piece = 0; piece < pieces; ++piece) {
+    const float from = step * static_cast<float>(piece);
+    const auto span = [&](float start, float along) {
+      const float a = start + from * along;
+      const float b = a + step * along;
+      return std::array<std::int32_t, 2>{
+          static_cast<std::int32_t>((std::min(a, b) - kReach) * kPerMetre),
+          static_cast<std::int32_t>((std::max(a, b) + kReach) * kPerMetre)};
+    };
+    const auto across = span(wall.x, wall.along_x);
+    const auto up = span(wall.y, wall.along_y);
+    for (std::int32_t row = up[0]; row <= up[1]; ++row) {
+      for (std::int32_t column = across[0]; column <= across[1]; ++column) {
+        offer(column, row, line);
+      }
+    }
+  }
+}
+
+void WallField::offer(std::int32_t column, std::int32_t row, std::int32_t line) {
+  const float x = (static_cast<float>(column) + 0.5F) / kPerMetre;
+  const float y = (static_cast<float>(row) + 0.5F) / kPerMetre;
+  const float squared = squared_distance(lines_[static_cast<std::size_t>(line)], x, y);
+  if (squared > kReach * kReach) return;
+  std::int32_t& tile = tiles_[tile_of(column, row)];
+  if (tile < 0) {
+    tile = static_cast<std::int32_t>(cells_.size());
+    cells_.emplace_back().fill(-1);
+  }
+  std::int32_t& nearest = cells_[static_cast<std::size_t>(tile)][cell_of(column, row)];
+  const bool is_nearer =
+      nearest < 0 || squared < squared_distance(lines_[static_cast<std::size_t>(nearest)], x, y);
+  if (is_nearer) nearest = line;
+}
+
+std::size_t WallField::memory() const {
+  return tiles_.capacity() * sizeof(std::int32_t) + cells_.capacity() * sizeof(Tile) +
+         lines_.capacity() * sizeof(Line);
+}
+
+}  // namespace adit
