@@ -14,6 +14,7 @@ struct LocateOptions {
   std::string scanner = "cyclone";
   std::string data = "../shared/data";
   int clutter = 5;
+  int first = 0;
   int count = 200;
   std::uint64_t seed = 1;
   double map_sigma = 0.1;
@@ -29,6 +30,7 @@ struct LocateOptions {
     field("scanner", self.scanner, "cyclone, sick, sick_lms or hokuyo");
     field("data", self.data, "folder of plans and logs");
     field("clutter", self.clutter, "pieces of it, other ones for each scan");
+    field("first", self.first, "leaves out so many of a mine's poses");
     field("count", self.count, "scans");
     field("seed", self.seed, "of noise, clutter and places");
     field("map_sigma", self.map_sigma, "what is stated of the plan's error (m)");

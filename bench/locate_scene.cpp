@@ -93,9 +93,9 @@ Result<std::vector<Pose2>> poses_of(const LocateOptions& options, const std::str
   const auto read = read_trajectory(mine(options, plan + "_poses.tum"));
   if (!read) return tl::unexpected(read.error());
   std::vector<Pose2> poses;
-  for (const StampedPose& stamped : *read) poses.push_back(stamped.pose);
-  const auto most = static_cast<std::size_t>(std::max(1, options.count));
-  if (poses.size() > most) poses.resize(most);
+  const auto first = static_cast<std::size_t>(options.first);
+  const std::size_t end = std::min(read->size(), first + static_cast<std::size_t>(options.count));
+  for (std::size_t i = first; i < end; ++i) poses.push_back((*read)[i].pose);
   return poses;
 }
 
@@ -111,10 +111,12 @@ Result<LocateScene> mine_scene(const LocateOptions& options, const ScannerSpec& 
   LocateScene scene;
   scene.map = LineMap::build(plan->segments);
   const Surveyor surveyor(walls->segments, spec, options);
+  const auto first = static_cast<std::size_t>(options.first);
   for (std::size_t i = 0; i < poses->size(); ++i) {
     const Pose2& pose = (*poses)[i];
     const bool inside = taken_in == sought_in;
-    scene.cases.push_back({surveyor.scan_at(pose, i), inside ? std::optional(pose) : std::nullopt});
+    scene.cases.push_back(
+        {surveyor.scan_at(pose, first + i), inside ? std::optional(pose) : std::nullopt});
   }
   return scene;
 }
