@@ -28,33 +28,52 @@ RelocationQuery Localizer::query_for(const LaserScan& scan) const {
 
 /// Every pose that may be the true one is held against the scan; one of them is the estimate.
 void Localizer::weigh_hypotheses(const LaserScan& scan) {
-  if (finder_.is_searching() && --scans_to_wait_ <= 0) take_search();
+  if (finder_.is_searching() && --scans_to_answer_ <= 0) take_search();
   if (hypotheses_.empty()) return;
   const Stopwatch watch(timings_.search);
   const RefinementInput input{map_, scan, scanner_, map_error_.error(), motion_};
   hypotheses_.weigh({input, way_m_, settings_.refinement, settings_.tracking, settings_.status,
                      tracker_, scan_fit_},
                     settings_.hypotheses);
-  if (hypotheses_.empty()) return;
-  const bool is_decided = hypotheses_.is_decided(settings_.hypotheses);
-  follow(is_decided ? hypotheses_.all().front() : hypotheses_.leader(), input);
-  const bool is_own = hypotheses_.all().front().is_own;
-  if (is_decided && (is_confirmed_ || is_own)) {
-    hypotheses_.clear();
-    trust_.reset();
-    next_wait_ = 0;
-    if (!is_own) trusted_m_ = 0.0;
-    ambiguous_ = false;
-  } else if (hypotheses_.is_hopeless()) {
-    hypotheses_.clear();
-    wait_for_search();
+  if (hypotheses_.empty()) {
+    give_up();
+    return;
   }
+  const Hypotheses::Hypothesis& best = hypotheses_.all().front();
+  const bool is_own = best.is_own;
+  const bool is_believed =
+      hypotheses_.is_decided(settings_.hypotheses) && (is_own || is_confirmed_);
+  is_confirmed_ = false;  // of the pose that led at this scan
+  follow(is_believed ? best : hypotheses_.leader(), input);
+  if (is_believed) {
+    believe(is_own);
+  } else if (hypotheses_.is_hopeless()) {
+    give_up();
+  }
+}
+
+/// One pose is left, and the scans speak for it.
+void Localizer::believe(bool is_own) {
+  hypotheses_.clear();
+  trust_.reset();
+  ambiguous_ = false;
+  is_found_ = true;
+  if (!is_own) trusted_m_ = 0.0;
+}
+
+/// None is left.
+void Localizer::give_up() {
+  hypotheses_.clear();
+  is_anywhere_ = !is_found_;
+  wait_for_search();
 }
 
 /// Takes what the search found, carried on to this scan by dead reckoning, and beside it the pose
 /// that dead reckoning alone has kept.
 void Localizer::take_search() {
   const RelocationResult found = finder_.take();
+  const bool is_lost = is_anywhere_ || trust_.contradicted();
+  if (hypotheses_.empty() && !is_lost) return;  // the scans have found the pose meanwhile
   const bool is_first = hypotheses_.empty();
   bool is_news = found.verdict == Status::lost;
   for (const RankedPose& pose : found.poses) {
@@ -64,10 +83,10 @@ void Localizer::take_search() {
     here.covariance += turned(way.covariance, pose.pose.theta);
     if (hypotheses_.add(here, settings_.hypotheses)) is_news = true;
   }
-  // A search lists so many poses and no more: in a mine that repeats itself the true one may be
-  // missing. Only another search, elsewhere, that finds no new one says that none is.
-  const auto most = static_cast<std::size_t>(settings_.relocation.listed);
-  is_confirmed_ = !is_first && !is_news && found.poses.size() < most;
+  // A search fits so many poses and no more: in a mine that repeats itself the true one may be
+  // missing. Only another search, elsewhere, that finds few and no new one says that none is.
+  const int most = std::min(settings_.relocation.refined, settings_.relocation.listed);
+  is_confirmed_ = !is_first && !is_news && 2 * static_cast<int>(found.poses.size()) <= most;
   if (hypotheses_.empty()) {
     wait_for_search();
   } else if (is_first && !is_anywhere_) {
@@ -82,11 +101,12 @@ void Localizer::take_search() {
 /// A search in vain: the next one later.
 void Localizer::wait_for_search() {
   const RecoveryOptions& options = settings_.recovery;
-  scans_to_wait_ = std::max(options.scans_between, next_wait_);
-  next_wait_ = std::min(2 * scans_to_wait_, options.most_scans_between);
+  scans_to_search_ = std::max(options.scans_between, next_wait_);
+  next_wait_ = std::min(2 * scans_to_search_, options.most_scans_between);
 }
 
-/// The estimate becomes this hypothesis, as it was before this scan.
+/// The estimate becomes this hypothesis, as it was before this scan; it is that already where dead
+/// reckoning leads.
 void Localizer::follow(const Hypotheses::Hypothesis& hypothesis, const RefinementInput& input) {
   ambiguous_ = true;
   trust_.doubt();
@@ -95,6 +115,8 @@ void Localizer::follow(const Hypotheses::Hypothesis& hypothesis, const Refinemen
   rival_.reset();
   tracker_ = hypothesis.predicted;
   predicted_ = tracker_.estimate();
+  predicted_laser_ = carry(predicted_, vehicle_from_laser_);
+  uses_features_ = false;  // they were matched elsewhere
   scan_fit_ = refine_from(input, {predicted_.pose, floored(predicted_.covariance)});
 }
 
@@ -103,12 +125,13 @@ void Localizer::follow(const Hypotheses::Hypothesis& hypothesis, const Refinemen
 void Localizer::seek_elsewhere(const LaserScan& scan) {
   if (!uses_points() || !settings_.recovery.searches || finder_.is_searching()) return;
   const bool is_lost = is_anywhere_ || trust_.contradicted();
-  const bool is_due = hypotheses_.empty() ? is_lost && --scans_to_wait_ <= 0
+  const bool is_due = hypotheses_.empty() ? is_lost && --scans_to_search_ < 0
                                           : hypotheses_.is_decided(settings_.hypotheses);
   if (!is_due) return;
   if (scan_fit_.counts.returns() < settings_.status.fewest_returns && !is_anywhere_) return;
   finder_.begin(query_for(scan), finder_options());
-  scans_to_wait_ = settings_.recovery.scans_for_search;
+  scans_to_answer_ = settings_.recovery.scans_for_search;
+  scans_to_search_ = 0;
   is_confirmed_ = false;
   since_search_.start({});
 }

@@ -87,6 +87,8 @@ void Localizer::start(const Pose2& map_from_vehicle, const std::optional<Matrix3
 void Localizer::start_anywhere() {
   start(Pose2{});
   is_anywhere_ = true;
+  is_found_ = false;
+  trusted_m_ = 0.0;
   estimate_.covariance = unknown_covariance();
 }
 
@@ -106,7 +108,8 @@ void Localizer::forget() {
   is_anywhere_ = false;
   is_confirmed_ = false;
   trusted_m_ = std::numeric_limits<double>::infinity();  // by whoever states the start
-  scans_to_wait_ = next_wait_ = 0;
+  is_found_ = true;
+  scans_to_search_ = scans_to_answer_ = next_wait_ = 0;
   estimate_ = Estimate{};
 }
 

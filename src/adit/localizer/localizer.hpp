@@ -125,6 +125,8 @@ class Localizer {
   PlaceFinderOptions finder_options() const;
   void take_search();
   void wait_for_search();
+  void believe(bool is_own);
+  void give_up();
   void follow(const Hypotheses::Hypothesis& hypothesis, const RefinementInput& input);
   Matrix3d floored(const Matrix3d& covariance) const;
   Matrix3d shared_map_error() const;
@@ -161,8 +163,10 @@ class Localizer {
   double trusted_m_ = 0.0;     // way since the pose was found
   bool is_confirmed_ = false;  // a second search found no other pose
   bool is_anywhere_ = false;   // nothing is known of the pose
+  bool is_found_ = true;       // some pose was stated or believed since the start
   int next_wait_ = 0;          // after the next search in vain (scans)
-  int scans_to_wait_ = 0;      // for the search's answer, or for the next search
+  int scans_to_search_ = 0;    // until the next search
+  int scans_to_answer_ = 0;    // until the answer of the one under way is taken
 
   // Of this turn.
   PoseWithCovariance predicted_;

@@ -112,8 +112,11 @@ class Trust {
   bool next(const FitQuality& quality, double way_m, const StatusOptions& options);
   void reset() { *this = Trust{}; }
   /// Something else than a scan speaks against the pose.
-  void doubt() { contradicted_ = true; }
-  /// Whether a scan contradicted the pose and it has not been regained since.
+  void doubt() {
+    contradicted_ = true;
+    regained_m_ = 0.0;
+  }
+  /// Whether a scan, or `doubt`, contradicted the pose and it has not been regained since.
   bool contradicted() const { return contradicted_; }
 
  private:
