@@ -9,9 +9,9 @@
 
 #include "adit/plot/figures.hpp"
 #include "adit/refinement/map_error.hpp"
+#include "adit/relocation/share_out.hpp"
 #include "adit/visibility/visibility.hpp"
 #include "progress.hpp"
-#include "share_out.hpp"
 
 namespace adit {
 namespace {
@@ -134,9 +134,9 @@ AliasSurvey AliasSurveyor::survey(std::span<const Vector2d> places, int threads,
         const Pose2 truth = pose_at(places[i]);
         Random no_noise(0);
         const LaserScan scan = simulate_scan(caster_, truth, scanner_, no_noise);
-        const RelocationResult& found =
-            relocator.locate({scan, settings_.scanner, map_error, std::nullopt, std::nullopt},
-                             settings_.relocation, settings_.likelihood, settings_.status);
+        const RelocationResult& found = relocator.locate(
+            {scan, settings_.scanner, map_error, std::nullopt, std::nullopt}, settings_.relocation,
+            settings_.likelihood, settings_.refinement, settings_.status);
         survey.places[i] = judge(truth, found, options, aliases[i]);
       };
     });

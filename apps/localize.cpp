@@ -9,6 +9,7 @@
 #include "adit/io/plan_levels.hpp"
 #include "adit/io/saved_pose.hpp"
 #include "adit/io/trajectory.hpp"
+#include "adit/relocation/share_out.hpp"
 #include "commands.hpp"
 #include "configured.hpp"
 #include "find_level.hpp"
@@ -18,7 +19,6 @@
 #include "output_folder.hpp"
 #include "replay.hpp"
 #include "report_error.hpp"
-#include "share_out.hpp"
 
 namespace adit {
 namespace {
@@ -110,10 +110,19 @@ Result<void> write_results(const std::string& folder, const Replay& replay, cons
 Result<Estimator> estimator_of(const LocalizeArguments& arguments) {
   const auto estimator = value_named<Estimator>(arguments.estimator);
   if (!estimator) return fail("no estimator '" + arguments.estimator + "'");
-  if (*estimator == Estimator::features && arguments.start == "anywhere") {
-    return fail("features alone find no pose without a first one: --start anywhere needs points");
-  }
   return *estimator;
+}
+
+/// A start without a pose is only of use to who searches the mine.
+Result<void> check_start(const Start& start, const LocalizerSettings& settings) {
+  if (!start.beginning.is_anywhere) return {};
+  if (settings.estimator == Estimator::features) {
+    return fail("a start anywhere needs --estimator full or points: features alone find no pose");
+  }
+  if (!settings.recovery.searches) {
+    return fail("a start anywhere needs [recovery] searches = true");
+  }
+  return {};
 }
 
 int fail_with(const Error& error) {
@@ -139,6 +148,7 @@ int run_localize(const LocalizeArguments& arguments) {
   inputs->configuration.values.localizer.estimator = *estimator;
   const LogSettings settings = settle(inputs->configuration, inputs->log);
   const LocalizerSettings& values = settings.configuration.localizer;
+  if (const auto checked = check_start(*start, values); !checked) return fail_with(checked.error());
   const Result<RunMap> run = make_map(*inputs, *start, settings.configuration, arguments);
   if (!run) return fail_with(run.error());
   const Replay result = replay(inputs->log, run->map, values, start->beginning, run->places);

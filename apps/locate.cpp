@@ -6,13 +6,13 @@
 #include "adit/calibration/log_settings.hpp"
 #include "adit/plot/figures.hpp"
 #include "adit/plot/place_figures.hpp"
+#include "adit/relocation/share_out.hpp"
 #include "commands.hpp"
 #include "configured.hpp"
 #include "locate_report.hpp"
 #include "mine_search.hpp"
 #include "report_error.hpp"
 #include "scan_reference.hpp"
-#include "share_out.hpp"
 #include "sweep_priors.hpp"
 
 namespace adit {

@@ -2,13 +2,13 @@
 
 #include "adit/io/plan.hpp"
 #include "adit/plot/figures.hpp"
+#include "adit/relocation/share_out.hpp"
 #include "alias_survey.hpp"
 #include "commands.hpp"
 #include "configured.hpp"
 #include "mine_levels.hpp"
 #include "openings.hpp"
 #include "report_error.hpp"
-#include "share_out.hpp"
 
 namespace adit {
 namespace {

@@ -25,7 +25,7 @@ MineAnswer MineSearch::locate(const LaserScan& scan, const std::optional<SweepPr
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     const RelocationResult& found =
         relocators_[i].locate({scan, scanner, stated, motion, std::nullopt}, settings_.relocation,
-                              settings_.likelihood, settings_.status);
+                              settings_.likelihood, settings_.refinement, settings_.status);
     for (const RankedPose& pose : found.poses) answer.poses.push_back({pose, i});
     if (found.poses.empty() || found.poses.front().log_likelihood <= best) continue;
     best = found.poses.front().log_likelihood;

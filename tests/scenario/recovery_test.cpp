@@ -107,8 +107,8 @@ std::vector<Segment> regular_panel(int pillars) {
   return plan;
 }
 
-// The middle of a regular panel looks the same everywhere; its edge tells.
-TEST(Recovery, WhereAllPillarsAreAlikeItIsAmbiguousUntilTheEdgeIsSeen) {
+// The middle of a regular panel looks the same everywhere.
+TEST(Recovery, WhereAllPillarsAreAlikeNoPoseIsTrusted) {
   const World world = from_plan(regular_panel(7));
   const LineMap map = LineMap::build(world.plan);
   const RayCaster caster(world.walls);

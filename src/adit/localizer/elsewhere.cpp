@@ -19,7 +19,8 @@ Matrix3d turned(const Matrix3d& covariance, double by) {
 }  // namespace
 
 PlaceFinderOptions Localizer::finder_options() const {
-  return {settings_.places, settings_.relocation, settings_.likelihood, settings_.status};
+  return {settings_.places, settings_.relocation, settings_.likelihood, settings_.refinement,
+          settings_.status};
 }
 
 RelocationQuery Localizer::query_for(const LaserScan& scan) const {
@@ -28,7 +29,7 @@ RelocationQuery Localizer::query_for(const LaserScan& scan) const {
 
 /// Every pose that may be the true one is held against the scan; one of them is the estimate.
 void Localizer::weigh_hypotheses(const LaserScan& scan) {
-  if (finder_.is_searching() && --scans_to_answer_ <= 0) take_search();
+  if (finder_.is_searching() && schedule_.is_answer_due()) take_search();
   if (hypotheses_.empty()) return;
   const Stopwatch watch(timings_.search);
   const RefinementInput input{map_, scan, scanner_, map_error_.error(), motion_};
@@ -65,7 +66,7 @@ void Localizer::believe(bool is_own) {
 void Localizer::give_up() {
   hypotheses_.clear();
   is_anywhere_ = !is_found_;
-  wait_for_search();
+  schedule_.note_failure(settings_.recovery);
 }
 
 /// Takes what the search found, carried on to this scan by dead reckoning, and beside it the pose
@@ -85,10 +86,10 @@ void Localizer::take_search() {
   }
   // A search fits so many poses and no more: in a mine that repeats itself the true one may be
   // missing. Only another search, elsewhere, that finds few and no new one says that none is.
-  const int most = std::min(settings_.relocation.refined, settings_.relocation.listed);
-  is_confirmed_ = !is_first && !is_news && 2 * static_cast<int>(found.poses.size()) <= most;
+  const int few = std::min(settings_.relocation.refined, settings_.relocation.listed) / 2;
+  is_confirmed_ = !is_first && !is_news && static_cast<int>(found.poses.size()) <= few;
   if (hypotheses_.empty()) {
-    wait_for_search();
+    schedule_.note_failure(settings_.recovery);
   } else if (is_first && !is_anywhere_) {
     if (trusted_m_ > settings_.hypotheses.own_way_m) {
       hypotheses_.add_own(tracker_, settings_.hypotheses);
@@ -96,13 +97,6 @@ void Localizer::take_search() {
       hypotheses_.add(tracker_.estimate(), settings_.hypotheses);
     }
   }
-}
-
-/// A search in vain: the next one later.
-void Localizer::wait_for_search() {
-  const RecoveryOptions& options = settings_.recovery;
-  scans_to_search_ = std::max(options.scans_between, next_wait_);
-  next_wait_ = std::min(2 * scans_to_search_, options.most_scans_between);
 }
 
 /// The estimate becomes this hypothesis, as it was before this scan; it is that already where dead
@@ -125,13 +119,12 @@ void Localizer::follow(const Hypotheses::Hypothesis& hypothesis, const Refinemen
 void Localizer::seek_elsewhere(const LaserScan& scan) {
   if (!uses_points() || !settings_.recovery.searches || finder_.is_searching()) return;
   const bool is_lost = is_anywhere_ || trust_.contradicted();
-  const bool is_due = hypotheses_.empty() ? is_lost && --scans_to_search_ < 0
+  const bool is_due = hypotheses_.empty() ? is_lost && schedule_.is_search_due()
                                           : hypotheses_.is_decided(settings_.hypotheses);
   if (!is_due) return;
   if (scan_fit_.counts.returns() < settings_.status.fewest_returns && !is_anywhere_) return;
   finder_.begin(query_for(scan), finder_options());
-  scans_to_answer_ = settings_.recovery.scans_for_search;
-  scans_to_search_ = 0;
+  schedule_.begin(settings_.recovery);
   is_confirmed_ = false;
   since_search_.start({});
 }

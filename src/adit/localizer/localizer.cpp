@@ -103,13 +103,13 @@ void Localizer::forget() {
   trust_.reset();
   clear_ = true;
   rival_.reset();
-  finder_.abandon();
+  finder_.wait_and_drop();
   hypotheses_.clear();
   is_anywhere_ = false;
   is_confirmed_ = false;
   trusted_m_ = std::numeric_limits<double>::infinity();  // by whoever states the start
   is_found_ = true;
-  scans_to_search_ = scans_to_answer_ = next_wait_ = 0;
+  schedule_ = SearchSchedule{};
   estimate_ = Estimate{};
 }
 

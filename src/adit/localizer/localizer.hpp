@@ -11,6 +11,7 @@
 #include "adit/motion/pose_history.hpp"
 #include "adit/recovery/hypotheses.hpp"
 #include "adit/recovery/place_finder.hpp"
+#include "adit/recovery/search_schedule.hpp"
 #include "adit/refinement/refinement.hpp"
 #include "adit/scan/laser_scan.hpp"
 #include "adit/tracking/estimate.hpp"
@@ -41,7 +42,8 @@ class Localizer {
              const std::optional<Matrix3d>& covariance = std::nullopt);
 
   /// The vehicle may be anywhere in the mine: the next scan is looked for in all of it. `lost`
-  /// until something is found, `ambiguous` while several poses explain the scans.
+  /// until something is found, `ambiguous` while several poses explain the scans. Needs all points
+  /// (`full` or `points`) and `[recovery] searches`.
   void start_anywhere();
 
   /// Feeds dead reckoning: stamped poses in the odometry's frame, of which only differences count.
@@ -124,7 +126,6 @@ class Localizer {
   RelocationQuery query_for(const LaserScan& scan) const;
   PlaceFinderOptions finder_options() const;
   void take_search();
-  void wait_for_search();
   void believe(bool is_own);
   void give_up();
   void follow(const Hypotheses::Hypothesis& hypothesis, const RefinementInput& input);
@@ -158,15 +159,13 @@ class Localizer {
 
   // While the pose is lost.
   PlaceFinder finder_;
+  SearchSchedule schedule_;
   Hypotheses hypotheses_;
   PoseTracker since_search_;   // dead reckoning from where the scan that is looked for was taken
   double trusted_m_ = 0.0;     // way since the pose was found
   bool is_confirmed_ = false;  // a second search found no other pose
   bool is_anywhere_ = false;   // nothing is known of the pose
   bool is_found_ = true;       // some pose was stated or believed since the start
-  int next_wait_ = 0;          // after the next search in vain (scans)
-  int scans_to_search_ = 0;    // until the next search
-  int scans_to_answer_ = 0;    // until the answer of the one under way is taken
 
   // Of this turn.
   PoseWithCovariance predicted_;

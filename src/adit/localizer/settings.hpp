@@ -11,6 +11,7 @@
 #include "adit/prediction/prediction.hpp"
 #include "adit/recovery/hypotheses.hpp"
 #include "adit/recovery/place_finder.hpp"
+#include "adit/recovery/search_schedule.hpp"
 #include "adit/refinement/displacement.hpp"
 #include "adit/refinement/map_error.hpp"
 #include "adit/refinement/options.hpp"
@@ -72,27 +73,6 @@ struct LocalizerOptions {
     field("features_sigma_m", self.features_sigma_m,
           "a prediction less sure than this needs features to find the pose (m)");
     field("features_sigma_rad", self.features_sigma_rad, "the same for the heading (rad)");
-  }
-};
-
-/// When a lost pose is looked for in the whole mine.
-struct RecoveryOptions {
-  bool searches = true;
-  int scans_for_search = 2;
-  int scans_between = 5;
-  int most_scans_between = 80;
-
-  template <class Self, class Field>
-  static void visit(Self& self, Field&& field) {
-    field("searches", self.searches,
-          "a pose that a scan contradicts is looked for in the whole mine");
-    field("scans_for_search", self.scans_for_search,
-          "the search runs beside the cycle; its answer is taken so many scans after the one that "
-          "was looked for, no sooner and no later, so that a replay gives the same");
-    field("scans_between", self.scans_between,
-          "after a search that found nothing, so many scans pass before the next, ...");
-    field("most_scans_between", self.most_scans_between,
-          "... and after each further one twice as many, up to this");
   }
 };
 

@@ -196,7 +196,7 @@ void Localizer::track_pose() {
   believed_ = trust_.next(quality, way_m_, settings_.status) && hypotheses_.empty();
   if (believed_) {
     trusted_m_ += way_m_;
-    next_wait_ = scans_to_search_ = 0;
+    schedule_.note_success();
   }
   // What is not trusted may still be the truth: all that explains its scan is taken in.
   const bool helps = quality.converged && quality.agrees &&

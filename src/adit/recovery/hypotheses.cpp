@@ -109,7 +109,7 @@ void Hypotheses::judge(const ScanFit& fit, const FitQuality& quality, const Hypo
   hypothesis.contradicted = 0;
   const bool shows_all = !open_direction(fix_covariance(fit.information), turn.status);
   const bool is_sure =
-      hypothesis.is_own || (quality.evidence_ratio > options.least_evidence_ratio && shows_all);
+      hypothesis.is_own || (quality.evidence_ratio > options.sure_evidence_ratio && shows_all);
   const bool goes_on = is_sure && hypothesis.explained > 0;
   hypothesis.explained_m = goes_on ? hypothesis.explained_m + turn.way_m : 0.0;
   hypothesis.explained = is_sure ? hypothesis.explained + 1 : 0;
@@ -157,23 +157,27 @@ void Hypotheses::normalise(const HypothesesOptions& options) {
   });
 }
 
-const Hypotheses::Hypothesis& Hypotheses::leader() const {
+const Hypotheses::Hypothesis* Hypotheses::own() const {
   const auto own = std::find_if(all_.begin(), all_.end(),
                                 [](const Hypothesis& hypothesis) { return hypothesis.is_own; });
-  return own != all_.end() ? *own : all_.front();
+  return own != all_.end() ? &*own : nullptr;
+}
+
+const Hypotheses::Hypothesis& Hypotheses::leader() const {
+  const Hypothesis* mine = own();
+  return mine != nullptr ? *mine : all_.front();
 }
 
 bool Hypotheses::is_decided(const HypothesesOptions& options) const {
   if (all_.empty() || all_.front().weight < options.sure_weight) return false;
   const Hypothesis& best = all_.front();
-  const auto own = std::find_if(all_.begin(), all_.end(),
-                                [](const Hypothesis& hypothesis) { return hypothesis.is_own; });
+  if (best.explained < options.scans_to_confirm) return false;
+  if (best.is_own) return true;
   // Where the plan is wrong another place may explain the scans better; not as long as the way
   // here.
-  const bool own_holds = own != all_.end() && own->contradicted < options.scans_to_refute;
-  if (own_holds && !best.is_own) return false;
-  return best.explained >= options.scans_to_confirm &&
-         (best.is_own || best.explained_m >= options.way_to_confirm_m);
+  const Hypothesis* mine = own();
+  const bool own_holds = mine != nullptr && mine->contradicted < options.scans_to_refute;
+  return !own_holds && best.explained_m >= options.way_to_confirm_m;
 }
 
 }  // namespace adit

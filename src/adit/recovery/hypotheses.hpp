@@ -1,11 +1,8 @@
 #pragma once
 
-#include <optional>
-#include <span>
 #include <vector>
 
 #include "adit/refinement/refinement.hpp"
-#include "adit/relocation/relocator.hpp"
 #include "adit/tracking/pose_tracker.hpp"
 #include "adit/tracking/verdict.hpp"
 
@@ -18,7 +15,7 @@ struct HypothesesOptions {
   int scans_to_confirm = 2;
   double way_to_confirm_m = 3.0;
   int scans_to_refute = 2;
-  double least_evidence_ratio = 0.75;
+  double sure_evidence_ratio = 0.75;
   double own_gain = 3.0;
   double own_way_m = 10.0;
   double independent_way_m = 2.0;
@@ -38,7 +35,7 @@ struct HypothesesOptions {
     field("scans_to_refute", self.scans_to_refute,
           "one that so many scans in a row contradict is given up");
     field(
-        "least_evidence_ratio", self.least_evidence_ratio,
+        "sure_evidence_ratio", self.sure_evidence_ratio,
         "to confirm a pose that a search has found, a scan must be explained to this share of what "
         "one of nothing but the map's walls would give, and show all of it");
     field("own_gain", self.own_gain,
@@ -128,6 +125,8 @@ class Hypotheses {
   static void judge(const ScanFit& fit, const FitQuality& quality, const HypothesesTurn& turn,
                     const HypothesesOptions& options, Hypothesis& hypothesis);
   void raise_odds(double news);
+  /// The one by dead reckoning, or null.
+  const Hypothesis* own() const;
   void drop_contradicted(const HypothesesOptions& options);
   void merge(const HypothesesOptions& options);
   void normalise(const HypothesesOptions& options);

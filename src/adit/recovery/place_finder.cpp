@@ -11,12 +11,12 @@ void PlaceFinder::begin(const RelocationQuery& query, const PlaceFinderOptions& 
     }
     Relocator relocator(map_, *index_);
     return relocator.locate({scan, scanner, map_error, motion, within}, options.relocation,
-                            options.likelihood, options.status);
+                            options.likelihood, options.refinement, options.status);
   };
   result_ = std::async(std::launch::async, search);
 }
 
-void PlaceFinder::abandon() {
+void PlaceFinder::wait_and_drop() {
   if (result_.valid()) result_.get();
 }
 

@@ -2,7 +2,7 @@
 
 #include <future>
 #include <memory>
-#include <optional>
+#include <utility>
 
 #include "adit/relocation/relocator.hpp"
 
@@ -13,6 +13,7 @@ struct PlaceFinderOptions {
   PlaceIndexOptions places;
   RelocationOptions relocation;
   LikelihoodOptions likelihood;
+  RefinementOptions refinement;
   StatusOptions status;
 };
 
@@ -24,14 +25,17 @@ class PlaceFinder {
  public:
   PlaceFinder(const LineMap& map, std::shared_ptr<const PlaceIndex> index)
       : map_(map), index_(std::move(index)) {}
+  PlaceFinder(const PlaceFinder&) = delete;  // the search holds its address
+  PlaceFinder& operator=(const PlaceFinder&) = delete;
+  ~PlaceFinder() = default;  // waits for the search
 
   bool is_searching() const { return result_.valid(); }
   /// Begins a search; all that it needs is copied. One at a time.
   void begin(const RelocationQuery& query, const PlaceFinderOptions& options);
   /// Waits for the search that was begun.
   RelocationResult take() { return result_.get(); }
-  /// Gives the search up; waits for its end.
-  void abandon();
+  /// Waits for the search that is under way, if one is, and forgets its answer.
+  void wait_and_drop();
 
  private:
   const LineMap& map_;

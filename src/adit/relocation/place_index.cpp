@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <functional>
-#include <thread>
 
+#include "adit/relocation/share_out.hpp"
 #include "adit/visibility/visibility.hpp"
 
 namespace adit {
@@ -15,20 +14,6 @@ namespace {
 constexpr std::size_t kRaysPerBin = 8;
 constexpr std::size_t kMargin = 2;
 constexpr std::size_t kRays = kRangeBins * kRaysPerBin;
-
-/// Calls `work(i)` for 0 .. count - 1, each on one of the threads.
-template <class MakeWorker>
-void share_out(std::size_t count, int threads, const MakeWorker& make_worker) {
-  std::atomic<std::size_t> next{0};
-  const auto run = [&] {
-    auto work = make_worker();
-    for (std::size_t i = next++; i < count; i = next++) work(i);
-  };
-  std::vector<std::thread> pool;
-  for (int i = 1; i < threads; ++i) pool.emplace_back(run);
-  run();
-  for (std::thread& thread : pool) thread.join();
-}
 
 /// Coarse in a large plan, fine in a small one (m).
 double pitch_for(double area, const PlaceIndexOptions& options) {

@@ -62,9 +62,11 @@ Matrix3d basin(double metres, double radians) {
 const RelocationResult& Relocator::locate(const RelocationQuery& query,
                                           const RelocationOptions& options,
                                           const LikelihoodOptions& likelihood,
+                                          const RefinementOptions& refinement,
                                           const StatusOptions& status) {
   result_.poses.clear();
   result_.verdict = Status::lost;
+  refinement_ = refinement;
   result_.map_error = query.map_error;
   likelihood_.set_scan(query.scan, query.scanner, query.map_error, likelihood);
   rate_candidates(query, options);
@@ -95,7 +97,7 @@ const ScanFit& Relocator::fit(const RefinementInput& input, const Pose2& pose,
                               const RelocationOptions& options) {
   const PoseWithCovariance prior{pose, basin(options.basin_m, options.basin_rad)};
   const PoseWithCovariance start{pose, basin(options.start_m, options.doubt_rad)};
-  return refiner_.refine(input, prior, start, RefinementOptions{});
+  return refiner_.refine(input, prior, start, refinement_);
 }
 
 /// Keeps the most likely, none near a better one.

@@ -55,6 +55,7 @@ class Relocator {
   const RelocationResult& locate(const RelocationQuery& query,
                                  const RelocationOptions& options = {},
                                  const LikelihoodOptions& likelihood = {},
+                                 const RefinementOptions& refinement = {},
                                  const StatusOptions& status = {});
 
  private:
@@ -83,6 +84,7 @@ class Relocator {
   PlaceSearch search_;
   ScanLikelihood likelihood_;
   Refiner refiner_;
+  RefinementOptions refinement_;
   LaserScan thinned_;
   std::vector<Hypothesis> hypotheses_;
   RelocationResult result_;

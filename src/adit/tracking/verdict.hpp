@@ -45,8 +45,8 @@ struct StatusOptions {
           "a lost scan of which so much is explained still corrects dead reckoning, if the two "
           "agree");
     field("regain_evidence_ratio", self.regain_evidence_ratio,
-          "where the scan lies beyond the tracking's gate, so much must be explained; and by the "
-          "first scans after a contradiction");
+          "where the scan lies beyond the tracking's gate, so much must be explained; and "
+          "after a contradiction where no scan has yet shown what is usual");
     field("regain_slack", self.regain_slack,
           "after a scan that contradicted the pose, as much must be explained as is usual here but "
           "for this ...");
