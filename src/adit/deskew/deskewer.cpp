@@ -67,8 +67,7 @@ void Deskewer::carry_beams(const LaserScan& scan, const SweepTiming& timing,
       out.ranges[i] = std::sqrt(along * along + across * across);
       out.bearings[i] += std::atan2(across, along);
     }
-    stamp_from_then.origin = stamp_from_then.point(onward.origin);
-    stamp_from_then.axis_x = stamp_from_then.direction(onward.axis_x);
+    stamp_from_then = stamp_from_then * onward;
   }
 }
 

@@ -62,17 +62,23 @@ inline Vector3d difference(const Pose2& from, const Pose2& to) {
   return {to.x - from.x, to.y - from.y, angle_between(from.theta, to.theta)};
 }
 
-/// The pose with its sine and cosine, for carrying many points and directions.
+/// The pose with its axes, for carrying many points and directions.
 struct RigidTransform {
   explicit RigidTransform(const Pose2& pose)
-      : origin(pose.translation()), axis_x(unit_vector(pose.theta)) {}
-  Vector2d direction(const Vector2d& v) const {
-    return {axis_x.x() * v.x() - axis_x.y() * v.y(), axis_x.y() * v.x() + axis_x.x() * v.y()};
-  }
+      : RigidTransform(pose.translation(), unit_vector(pose.theta)) {}
+  RigidTransform(const Vector2d& from, const Vector2d& x)
+      : origin(from), axis_x(x), axis_y(-x.y(), x.x()) {}
+
+  Vector2d direction(const Vector2d& v) const { return axis_x * v.x() + axis_y * v.y(); }
   Vector2d point(const Vector2d& p) const { return origin + direction(p); }
+  /// `b` as this one's frame sees it.
+  RigidTransform operator*(const RigidTransform& b) const {
+    return {point(b.origin), direction(b.axis_x)};
+  }
 
   Vector2d origin;
   Vector2d axis_x;
+  Vector2d axis_y;
 };
 
 /// A pose in the map and its covariance over (x, y, theta) in the map frame (m, m, rad).

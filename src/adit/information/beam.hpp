@@ -8,6 +8,16 @@
 
 namespace adit {
 
+/// The same as `beam_variance`, where 1 / cos² beta is at hand.
+inline double beam_variance_stretched(const ScannerModel& scanner, double range,
+                                      double stretch_squared, double map_sigma_m) {
+  const double tan_squared = std::fmax(0.0, stretch_squared - 1.0);
+  const double beside = range * scanner.bearing_sigma_rad;
+  return scanner.range_sigma_m * scanner.range_sigma_m +
+         scanner.quantisation_m * scanner.quantisation_m / 12.0 +
+         map_sigma_m * map_sigma_m * stretch_squared + beside * beside * tan_squared;
+}
+
 /// Variance (m²) of measured minus predicted range for one beam that meets a wall at incidence
 /// beta.
 ///
@@ -19,11 +29,7 @@ inline double beam_variance(const ScannerModel& scanner, double range, double co
                             double map_sigma_m) {
   const double cos_squared = cos_incidence * cos_incidence;
   if (!(cos_squared > 0.0)) return std::numeric_limits<double>::infinity();
-  const double tan_squared = std::fmax(0.0, 1.0 - cos_squared) / cos_squared;
-  const double beside = range * scanner.bearing_sigma_rad;
-  return scanner.range_sigma_m * scanner.range_sigma_m +
-         scanner.quantisation_m * scanner.quantisation_m / 12.0 +
-         map_sigma_m * map_sigma_m / cos_squared + beside * beside * tan_squared;
+  return beam_variance_stretched(scanner, range, 1.0 / cos_squared, map_sigma_m);
 }
 
 /// Derivative of the predicted range with respect to (x, y, theta) of the laser in the map.

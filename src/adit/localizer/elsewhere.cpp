@@ -107,6 +107,7 @@ void Localizer::follow(const Hypotheses::Hypothesis& hypothesis, const Refinemen
   if (hypothesis.is_own) return;
   is_anywhere_ = false;
   rival_.reset();
+  protection_.reset();
   tracker_ = hypothesis.predicted;
   predicted_ = tracker_.estimate();
   predicted_laser_ = carry(predicted_, vehicle_from_laser_);

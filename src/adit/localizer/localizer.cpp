@@ -103,6 +103,7 @@ void Localizer::forget() {
   trust_.reset();
   clear_ = true;
   rival_.reset();
+  protection_.reset();
   finder_.wait_and_drop();
   hypotheses_.clear();
   is_anywhere_ = false;

@@ -106,7 +106,7 @@ class Localizer {
   void track_pose();
   void learn_map_error();
   void judge(double stamp);
-  double protection();
+  double protection_radius();
 
   bool uses_points() const { return settings_.estimator != Estimator::features; }
   bool features_are_believable() const;
@@ -156,6 +156,7 @@ class Localizer {
   bool clear_ = true;   // the map explained nearly all of it
   double way_m_ = 0.0;  // since the last scan, by dead reckoning
   std::optional<Rival> rival_;
+  Protection protection_;
 
   // While the pose is lost.
   PlaceFinder finder_;

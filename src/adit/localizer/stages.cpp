@@ -256,18 +256,18 @@ void Localizer::judge(double stamp) {
       open_direction(fix_covariance(scan_fit_.information), settings_.status);
   if (estimate_.open_direction) estimate_.status = Status::degraded;
   if (ambiguous_) estimate_.status = Status::ambiguous;
-  if (!ambiguous_) estimate_.protection_m = protection();
+  if (!ambiguous_) estimate_.protection_m = protection_radius();
 }
 
 /// Over the hypotheses that one wall is wrong, that a wall stands where returns are parallel to
 /// it, and that the rival is right (m).
-double Localizer::protection() {
+double Localizer::protection_radius() {
   walls_.clear();
   for (const WallShare& share : refiner_.shares()) {
-    walls_.push_back({share.equations.information, share.equations.score});
+    walls_.push_back({share.wall, share.equations.information, share.equations.score});
   }
   const PoseWithCovariance& at = tracker_.estimate();
-  double level = protection_level(at, predicted_, scan_fit_.pose, walls_, settings_.protection);
+  double level = protection_.update(at, predicted_, scan_fit_.pose, walls_, settings_.protection);
   const auto cover = [&](double apart, const Matrix3d& covariance) {
     level = std::max(level, apart + radius_of(covariance, settings_.protection.risk));
   };

@@ -46,7 +46,7 @@ void BeamResiduals::set_scan(const LaserScan& scan, const ScannerModel& scanner)
   timing_ = sweep_timing(scanner, count);
   ranges_.resize(count);
   walls_.resize(count);
-  beams_.reserve(count);
+  if (beams_.size() < count) beams_.resize(count);  // grows only
   near_.reserve(kMostNear);
   const bool even = scan.bearings.empty();
   const bool known = even && evenly_spaced_;
@@ -100,7 +100,7 @@ std::size_t BeamResiduals::station_count(const SweepPath& path, double spacing) 
 void BeamResiduals::compute(const LineMap& map, const Pose2& map_from_vehicle,
                             const SweepPath& path, const SweepCorrection& correction,
                             const RefinementOptions& options, std::size_t stride) {
-  beams_.clear();
+  size_ = 0;
   neighbours_.reset(map, options.neighbour_reach_m);
   unmapped_ = 0;
   log_unmapped_ = 0.0;
@@ -177,7 +177,7 @@ void BeamResiduals::look_up_walls(const Station& station, std::size_t stride,
 
 void BeamResiduals::look_from(const LineMap& map, const Station& station, const Vector2d& vehicle,
                               const RefinementOptions& options, std::size_t stride) {
-  const double least_cosine = std::cos(options.max_incidence_rad);
+  const double most_secant = 1.0 / std::cos(options.max_incidence_rad);
   const std::size_t count = (station.end - station.begin + stride - 1) / stride;
   const RigidTransform map_from_laser(station.laser);
   const Vector2d centre = station.laser.translation();
@@ -213,33 +213,33 @@ void BeamResiduals::look_from(const LineMap& map, const Station& station, const 
       direction = (direction + turn * perpendicular(direction)) / std::sqrt(1.0 + turn * turn);
     }
     const WallLine* met = &wall;
-    double cosine = wall.normal.dot(direction);
-    double range = wall.normal.dot(wall.foot - origin) / cosine;
+    double secant = 1.0 / wall.normal.dot(direction);
+    double range = wall.normal.dot(wall.foot - origin) * secant;
     const double measured = has_return ? scan_->ranges[i] : range;
     const double missed = std::abs(measured - range);
-    // A neighbour is asked only where the scanner's noise cannot explain the range.
-    const Vector2d end = origin + measured * direction;
-    if (missed > noise_reach_ && missed < kFarOff) met = &wall_met(wall, end, direction, missed);
-    const bool is_beyond = looks_beyond && met == &wall &&
-                           measured - range > options.neighbour_reach_m &&
-                           find_wall_beyond(map, end, direction, options.neighbour_reach_m);
-    if (is_beyond) met = &beyond_;
-    if (met != &wall) {
-      cosine = met->normal.dot(direction);
-      range = met->normal.dot(met->foot - origin) / cosine;
+    bool is_beyond = false;
+    if (missed > noise_reach_) {  // else the scanner's noise explains the range
+      const Vector2d end = origin + measured * direction;
+      if (missed < kFarOff) met = &wall_met(wall, end, direction, missed);
+      is_beyond = looks_beyond && met == &wall && measured - range > options.neighbour_reach_m &&
+                  find_wall_beyond(map, end, direction, options.neighbour_reach_m);
+      if (is_beyond) met = &beyond_;
+      if (met != &wall) {
+        secant = 1.0 / met->normal.dot(direction);
+        range = met->normal.dot(met->foot - origin) * secant;
+      }
     }
-    if (!(std::abs(cosine) > least_cosine)) continue;
-    BeamResidual& out = beams_.emplace_back();
-    out.normal = cosine < 0.0 ? met->normal : Vector2d(-met->normal);
-    out.stretch = -1.0 / std::abs(cosine);
+    if (!(std::abs(secant) < most_secant)) continue;
+    BeamResidual& out = beams_[size_++];
+    out.normal = secant < 0.0 ? met->normal : Vector2d(-met->normal);
+    out.stretch = -std::abs(secant);
     out.range = range;
     out.residual = has_return ? measured - range : 0.0;
     out.direction = direction;
-    out.hit = origin + out.range * direction;
+    out.hit = origin + range * direction;
     // The laser's gradient (Censi 2007), and what turning the vehicle adds by the lever arm.
     const Vector2d lever = origin - vehicle;
-    const double across =
-        out.normal.dot(out.range * perpendicular(direction) + perpendicular(lever));
+    const double across = range * cross(direction, out.normal) + cross(lever, out.normal);
     out.gradient = Vector3d(out.normal.x(), out.normal.y(), across) * -out.stretch;
     out.tau = tau;
     out.beam = static_cast<int>(i);

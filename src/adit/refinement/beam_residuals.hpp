@@ -49,7 +49,7 @@ class BeamResiduals {
                const SweepCorrection& correction, const RefinementOptions& options,
                std::size_t stride = 1);
 
-  const std::vector<BeamResidual>& beams() const { return beams_; }
+  std::span<const BeamResidual> beams() const { return {beams_.data(), size_}; }
   /// Beams with a return where the map has nothing in range.
   int unmapped() const { return unmapped_; }
   /// Log of their density, anywhere within reach, against one over the range that was measured.
@@ -99,7 +99,8 @@ class BeamResiduals {
   WallLine beyond_;
   std::vector<double> ranges_;
   std::vector<int> walls_;
-  std::vector<BeamResidual> beams_;
+  std::vector<BeamResidual> beams_;  // the first `size_` of them
+  std::size_t size_ = 0;
   int unmapped_ = 0;
   double log_unmapped_ = 0.0;
 };

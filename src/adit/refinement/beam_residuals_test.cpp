@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <ostream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -158,7 +159,7 @@ SweepPath path_of(const Case& setting) {
 class OfScans : public ::testing::TestWithParam<Case> {};
 
 /// Beams that lie off their walls by more than so many metres across them, of all.
-double share_off(const std::vector<BeamResidual>& beams, double metres) {
+double share_off(std::span<const BeamResidual> beams, double metres) {
   double off = 0.0;
   for (const BeamResidual& beam : beams) off += beam.residual / beam.stretch > metres ? 1.0 : 0.0;
   for (const BeamResidual& beam : beams) off += beam.residual / beam.stretch < -metres ? 1.0 : 0.0;

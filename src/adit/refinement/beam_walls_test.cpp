@@ -41,7 +41,8 @@ std::vector<BeamResidual> beams_of(const LaserScan& scan, const LineMap& map,
   BeamResiduals residuals;
   residuals.set_scan(scan, fine_scanner());
   residuals.compute(map, {}, {}, {}, options);
-  return residuals.beams();
+  const std::span<const BeamResidual> beams = residuals.beams();
+  return {beams.begin(), beams.end()};
 }
 
 TEST(BeamResiduals, ABeamWithoutReturnIsThereAndSaysNothing) {

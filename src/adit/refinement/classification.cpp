@@ -60,17 +60,21 @@ void BeamClassifier::find_ratios(std::span<const BeamResidual> beams,
     ratio_.resize(size);
     on_wall_.resize(size);
     other_.resize(size);
+    peak_.resize(size);
   }
-  const double before = (1.0 - options.long_ratio) * std::sqrt(kTwoPi);
-  const double behind = options.long_ratio * std::sqrt(kTwoPi);
+  const double before = 1.0 / ((1.0 - options.long_ratio) * std::sqrt(kTwoPi));
+  const double behind = 1.0 / (options.long_ratio * std::sqrt(kTwoPi));
   for (Eigen::Index k = 0; k < size; ++k) {
     const BeamResidual& beam = beams[static_cast<std::size_t>(k)];
-    const double variance = variances[static_cast<std::size_t>(k)];
-    ratio_[k] = -0.5 * beam.residual * beam.residual / variance;
-    on_wall_[k] = beam.range / ((beam.residual < 0.0 ? before : behind) * std::sqrt(variance));
+    ratio_[k] = -0.5 * beam.residual * beam.residual;
+    peak_[k] = beam.range * (beam.residual < 0.0 ? before : behind);
   }
+  // The longest part of the work, over whole arrays.
+  const Eigen::Map<const Eigen::ArrayXd> variance(variances.data(), size);
+  auto peaks = peak_.head(size);
   auto ratios = ratio_.head(size);
-  ratios = ratios.max(-200.0).exp() * on_wall_.head(size);
+  peaks /= variance.sqrt();
+  ratios = (ratios / variance).max(-200.0).exp() * peaks;
   for (Eigen::Index k = 0; k < size; ++k) {
     if (beams[static_cast<std::size_t>(k)].is_beyond) ratio_[k] *= options.beyond_ratio;
     if (!beams[static_cast<std::size_t>(k)].has_return) ratio_[k] = 1.0;
@@ -120,9 +124,7 @@ void BeamClassifier::run_chain(const RefinementOptions& options) {
   on_wall_.head(size) /= on_wall_.head(size) + other_.head(size);
 }
 
-BeamSummary BeamClassifier::summary(std::span<const BeamResidual> beams,
-                                    std::span<const double> variances,
-                                    const RefinementOptions& options) const {
+BeamSummary BeamClassifier::summary(std::span<const BeamResidual> beams) const {
   const double mean_loss = std::exp(-0.5);  // of a normal residual
   BeamSummary summary;
   LogProduct expected;
@@ -135,8 +137,7 @@ BeamSummary BeamClassifier::summary(std::span<const BeamResidual> beams,
     summary.counts.wall += weight;
     (beams[k].residual < 0.0 ? summary.counts.before : summary.counts.behind) += 1.0 - weight;
     // Of the beams that would tell a wall from something else.
-    const double ratio =
-        mean_loss / (other_density(beams[k], options) * std::sqrt(kTwoPi * variances[k]));
+    const double ratio = mean_loss * peak_[static_cast<Eigen::Index>(k)];
     if (ratio > 1.0) expected.multiply(ratio);
   }
   summary.expected_log_evidence = expected.log();

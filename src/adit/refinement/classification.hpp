@@ -45,9 +45,8 @@ class BeamClassifier {
   /// Log of the probability density of all returns under both classes, against "something else"
   /// everywhere: what the map explains of the scan.
   double log_evidence() const { return log_evidence_; }
-  /// Of the beams that were classified last, with the same variances and options.
-  BeamSummary summary(std::span<const BeamResidual> beams, std::span<const double> variances,
-                      const RefinementOptions& options) const;
+  /// Of the beams that were classified last.
+  BeamSummary summary(std::span<const BeamResidual> beams) const;
 
  private:
   void find_ratios(std::span<const BeamResidual> beams, std::span<const double> variances,
@@ -55,6 +54,7 @@ class BeamClassifier {
   void run_chain(const RefinementOptions& options);
 
   Eigen::ArrayXd ratio_;  // of the densities, wall against something else; 1 says nothing
+  Eigen::ArrayXd peak_;   // of these, for a residual of none
   Eigen::ArrayXd on_wall_;
   Eigen::ArrayXd other_;  // the chain's messages for the other class
   std::size_t size_ = 0;

@@ -31,7 +31,7 @@ struct Classified {
     const std::vector<double> same(beams.size(), kSigma * kSigma);
     const std::vector<double>& each = variances.empty() ? same : variances;
     classifier.classify(beams, each, options);
-    summary = classifier.summary(beams, each, options);
+    summary = classifier.summary(beams);
   }
   double on_wall(std::size_t beam) const { return classifier.on_wall()[beam]; }
 

@@ -58,18 +58,19 @@ void MapErrorEstimator::add(std::span<const BeamResidual> beams, std::span<const
       cell_begin_ = beam.hit;
       normal_ = beam.normal;
     }
-    const double cosine = 1.0 / beam.stretch;
-    const double variance = beam_variance(scanner, beam.range, cosine, 0.0) * cosine * cosine;
-    add_beam(beam, on_wall[k], variance);
+    add_beam(beam, on_wall[k], scanner);
   }
   close_cell(covariance);
   forget(seen_);
   settle();
 }
 
-void MapErrorEstimator::add_beam(const BeamResidual& beam, double probability, double variance) {
+void MapErrorEstimator::add_beam(const BeamResidual& beam, double probability,
+                                 const ScannerModel& scanner) {
   const double cosine = 1.0 / beam.stretch;
-  const double weight = probability / variance;
+  const double stretch_squared = beam.stretch * beam.stretch;
+  const double weight = probability * stretch_squared /
+                        beam_variance_stretched(scanner, beam.range, stretch_squared, 0.0);
   const double across = beam.residual * cosine;
   cell_.weight += weight;
   cell_.residual += weight * across;

@@ -105,7 +105,7 @@ class MapErrorEstimator {
     Vector3d gradient = Vector3d::Zero();
     double beams = 0.0;
   };
-  void add_beam(const BeamResidual& beam, double probability, double variance);
+  void add_beam(const BeamResidual& beam, double probability, const ScannerModel& scanner);
   void close_cell(const Matrix3d& covariance);
   void forget(double cells);
   void settle();

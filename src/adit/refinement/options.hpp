@@ -10,8 +10,8 @@ struct RefinementOptions {
   double clutter_end_ratio = 0.10;
   double long_ratio = 0.1;
   double max_incidence_rad = radians(89.0);
-  int max_iterations = 8;
-  double step_tolerance = 2.0;
+  int max_iterations = 12;
+  double step_tolerance = 1.0;
   double max_step_m = 0.7;
   double max_step_rad = 0.15;
   double station_spacing_m = 0.1;

@@ -18,9 +18,11 @@ constexpr double kLeastVariance = 1e-6;
 constexpr std::size_t kEnoughBeams = 100;
 
 // Where the doubt about the pose is less than this part of a residual's variance, on average, it no
-// longer sways which beams count; of a step's doubt this part is left for the next.
+// longer sways which beams count; of a step's doubt this part is left for the next, and as much as
+// this part of the step: beams that are held for clutter because the pose is off make it too short.
 constexpr double kNegligibleSpread = 0.2;
 constexpr double kKeptSpread = 0.02;
+constexpr double kLeftOfStep = 0.4;
 
 // The first steps look at so many beams, until they are shorter than so many sigmas.
 constexpr std::size_t kCoarseBeams = 250;
@@ -42,8 +44,7 @@ Eigen::Matrix<double, N, 1> parameters_gradient(const BeamResidual& beam, const 
     return beam.gradient;
   } else {
     const Vector2d across = beam.gradient.head<2>();
-    const Vector3d in_vehicle(across.dot(map.axis_x), across.dot(perpendicular(map.axis_x)),
-                              beam.gradient.z());
+    const Vector3d in_vehicle(across.dot(map.axis_x), across.dot(map.axis_y), beam.gradient.z());
     const std::array<double, 2> share = correction.shares(beam.tau);
     Eigen::Matrix<double, 9, 1> gradient;
     gradient << beam.gradient, share[0] * in_vehicle, share[1] * in_vehicle;
@@ -125,7 +126,8 @@ const ScanFit& Refiner::refine(const RefinementInput& input, const PoseWithCovar
     if (is_coarse && (length < kCoarseLength || fit_.iterations >= kMostCoarse)) stride = 1;
     fit_.converged = !is_coarse && is_last(length, options);
   }
-  const BeamSummary summary = classifier_.summary(residuals_.beams(), spread_, options);
+  fit_.white_information = white_information(input);
+  const BeamSummary summary = classifier_.summary(residuals_.beams());
   fit_.counts = summary.counts;
   fit_.counts.unmapped = residuals_.unmapped();
   fit_.log_evidence = classifier_.log_evidence();
@@ -165,17 +167,18 @@ double Refiner::log_likelihood(const RefinementOptions& options) const {
 void Refiner::weigh(const RefinementInput& input, const Matrix3d& spread,
                     const RefinementOptions& options) {
   const MapError& map_error = input.map_error;
-  const std::vector<BeamResidual>& beams = residuals_.beams();
+  const std::span<const BeamResidual> beams = residuals_.beams();
   noise_.resize(beams.size());
   spread_.resize(beams.size());
   const double offset = map_error.offset_sigma_m * map_error.offset_sigma_m;
   double share = 0.0;
   for (std::size_t k = 0; k < beams.size(); ++k) {
     const BeamResidual& beam = beams[k];
-    noise_[k] = std::max(
-        kLeastVariance,
-        beam_variance(input.scanner, beam.range, 1.0 / beam.stretch, map_error.roughness_sigma_m));
-    const double known = noise_[k] + beam.stretch * beam.stretch * offset;
+    const double stretch_squared = beam.stretch * beam.stretch;
+    noise_[k] =
+        std::max(kLeastVariance, beam_variance_stretched(input.scanner, beam.range, stretch_squared,
+                                                         map_error.roughness_sigma_m));
+    const double known = noise_[k] + stretch_squared * offset;
     const double doubt = beam.gradient.dot(spread * beam.gradient);
     spread_[k] = known + doubt;
     share += doubt / known;
@@ -189,8 +192,8 @@ void Refiner::weigh(const RefinementInput& input, const Matrix3d& spread,
 /// The normal equations of all beams on walls, and each wall's part in them.
 template <int N>
 void Refiner::accumulate(const MapError& map_error, std::vector<WallShareOf<N>>& shares,
-                         NormalEquations<N>& shared, NormalEquations<N>& white) {
-  const std::vector<BeamResidual>& beams = residuals_.beams();
+                         NormalEquations<N>& shared) {
+  const std::span<const BeamResidual> beams = residuals_.beams();
   const RigidTransform map_from_vehicle(fit_.pose);
   OffsetWhitener<N> whitener(map_error);
   WallShareOf<N> current;
@@ -213,29 +216,47 @@ void Refiner::accumulate(const MapError& map_error, std::vector<WallShareOf<N>>&
     const double variance = noise_[k] / probability;
     whitener.move_to(beam.hit, beam.normal);
     whitener.add(beam.residual, gradient, beam.stretch, variance, current.equations);
-    white.add(gradient, beam.residual, 1.0 / variance);
   }
   close_wall();
+}
+
+/// The normal equations if every beam's error were its own.
+template <int N>
+NormalEquations<N> Refiner::white_equations() const {
+  const std::span<const BeamResidual> beams = residuals_.beams();
+  const RigidTransform map_from_vehicle(fit_.pose);
+  NormalEquations<N> white;
+  for (std::size_t k = 0; k < beams.size(); ++k) {
+    const double probability = classifier_.on_wall()[k];
+    if (probability < kLeastProbability) continue;
+    const auto gradient = parameters_gradient<N>(beams[k], map_from_vehicle, fit_.correction);
+    white.add(gradient, beams[k].residual, probability / noise_[k]);
+  }
   white.mirror();
+  return white;
+}
+
+Matrix3d Refiner::white_information(const RefinementInput& input) const {
+  if (!input.motion) return white_equations<3>().information;
+  NormalEquations<9> white = white_equations<9>();
+  add_motion_prior(*input.motion, fit_.correction, white);
+  return marginal(white, gain_of(white)).information;
 }
 
 /// What the scan says of a vehicle at rest.
 void Refiner::combine_standing(const MapError& map_error) {
   NormalEquations<3> shared;
-  NormalEquations<3> white;
-  accumulate<3>(map_error, shares_, shared, white);
-  take(shared, white);
+  accumulate<3>(map_error, shares_, shared);
+  take(shared);
 }
 
 /// What it says of the pose of a vehicle on the move, the sweep's motion being free.
 void Refiner::combine_moving(const MapError& map_error, const SweepPrior& motion) {
   NormalEquations<9> shared;
-  NormalEquations<9> white;
-  accumulate<9>(map_error, moving_shares_, shared, white);
+  accumulate<9>(map_error, moving_shares_, shared);
   add_motion_prior(motion, fit_.correction, shared);
-  add_motion_prior(motion, fit_.correction, white);
   const Eigen::Matrix<double, 3, 6> gain = gain_of(shared);
-  take(marginal(shared, gain), marginal(white, gain_of(white)));
+  take(marginal(shared, gain));
   shares_.clear();
   for (const WallShareOf<9>& share : moving_shares_) {
     shares_.push_back({share.wall, marginal(share.equations, gain)});
@@ -244,11 +265,10 @@ void Refiner::combine_moving(const MapError& map_error, const SweepPrior& motion
   correction_score_ = shared.score.tail<6>();
 }
 
-void Refiner::take(const NormalEquations<3>& shared, const NormalEquations<3>& white) {
+void Refiner::take(const NormalEquations<3>& shared) {
   fit_.information = shared.information;
   fit_.score = shared.score;
   fit_.chi_square = shared.chi_square;
-  fit_.white_information = white.information;
 }
 
 /// A Gauss-Newton step to the pose that scan and prior make most likely; its length in sigmas.
@@ -274,7 +294,7 @@ double Refiner::step(const PoseWithCovariance& prior, bool moving, const Refinem
     }
   }
   const double length = std::sqrt(move.dot((fit_.information + prior_information) * move));
-  spread = covariance + kKeptSpread * spread;
+  spread = covariance + kKeptSpread * spread + kLeftOfStep * kLeftOfStep * move * move.transpose();
   return too_long > 1.0 ? std::numeric_limits<double>::infinity() : length;
 }
 

@@ -78,7 +78,7 @@ class Refiner {
                     const RefinementOptions& options);
 
   /// The beams of the last step and the probability of each to have met the map's wall.
-  const std::vector<BeamResidual>& beams() const { return residuals_.beams(); }
+  std::span<const BeamResidual> beams() const { return residuals_.beams(); }
   std::span<const double> on_wall() const { return classifier_.on_wall(); }
   /// The parts of the fit's information, wall by wall, over the pose. On the move what they leave
   /// open of the sweep's motion is taken out of each, and dead reckoning's part in that is no
@@ -90,10 +90,13 @@ class Refiner {
              const RefinementOptions& options);
   template <int N>
   void accumulate(const MapError& map_error, std::vector<WallShareOf<N>>& shares,
-                  NormalEquations<N>& shared, NormalEquations<N>& white);
+                  NormalEquations<N>& shared);
+  template <int N>
+  NormalEquations<N> white_equations() const;
   void combine_standing(const MapError& map_error);
   void combine_moving(const MapError& map_error, const SweepPrior& motion);
-  void take(const NormalEquations<3>& shared, const NormalEquations<3>& white);
+  void take(const NormalEquations<3>& shared);
+  Matrix3d white_information(const RefinementInput& input) const;
   double step(const PoseWithCovariance& prior, bool moving, const RefinementOptions& options,
               Matrix3d& spread);
   double log_likelihood(const RefinementOptions& options) const;

@@ -8,6 +8,10 @@
 namespace adit {
 namespace {
 
+// A wall that sways the pose by less is not remembered (m), and no more of them than these.
+constexpr double kLeastSway = 0.01;
+constexpr std::size_t kMostFollowed = 24;
+
 struct Normal2 {
   double major = 0.0;  // standard deviations (m)
   double minor = 0.0;
@@ -34,10 +38,14 @@ double radius_of(const Matrix3d& covariance, double risk) {
   return normal.major * (line + (circle - line) * ratio * ratio);
 }
 
-double protection_level(const PoseWithCovariance& estimate, const PoseWithCovariance& prediction,
-                        const Pose2& fitted_at, std::span<const WallEvidence> walls,
-                        const ProtectionOptions& options) {
-  double level = radius_of(estimate.covariance, options.risk);
+Protection::Protection() {
+  followed_.reserve(kMostFollowed);
+  before_.reserve(kMostFollowed);
+}
+
+double Protection::update(const PoseWithCovariance& estimate, const PoseWithCovariance& prediction,
+                          const Pose2& fitted_at, std::span<const WallEvidence> walls,
+                          const ProtectionOptions& options) {
   const Matrix3d prior = prediction.covariance.inverse();
   const Matrix3d loose_prior = prior / options.loose_prior;
   WallEvidence all;
@@ -47,14 +55,47 @@ double protection_level(const PoseWithCovariance& estimate, const PoseWithCovari
   }
   const Vector3d to_prediction = difference(fitted_at, prediction.pose);
   const Vector3d to_estimate = difference(fitted_at, estimate.pose);
-  for (const WallEvidence& wall : walls) {
+  double level = radius_of(estimate.covariance, options.risk);
+  const auto leave_out = [&](const WallEvidence& wall, const Vector3d& followed) {
     const Matrix3d information = all.information - wall.information;
-    const Vector3d score = all.score - wall.score + loose_prior * to_prediction;
-    const Vector3d without = (information + loose_prior).inverse() * score;
-    const double apart = (without - to_estimate).head<2>().norm();
-    level = std::max(level, apart + radius_of((information + prior).inverse(), options.risk));
+    const Vector3d score = all.score - wall.score + loose_prior * (to_prediction + followed);
+    const Vector3d separation = (information + loose_prior).inverse() * score - to_estimate;
+    const double radius = radius_of((information + prior).inverse(), options.risk);
+    level = std::max(level, separation.head<2>().norm() + radius);
+    keep(wall.wall, separation);
+  };
+  std::swap(followed_, before_);
+  followed_.clear();
+  for (const WallEvidence& wall : walls) leave_out(wall, take(wall.wall));
+  for (const Followed& past : before_) {
+    if (!past.in_sight) leave_out({past.wall, Matrix3d::Zero(), Vector3d::Zero()}, past.separation);
   }
   return options.margin * level;
+}
+
+/// What was remembered of a wall that is in sight again.
+Vector3d Protection::take(int wall) {
+  for (Followed& past : before_) {
+    if (past.wall != wall) continue;
+    past.in_sight = true;
+    return past.separation;
+  }
+  return Vector3d::Zero();
+}
+
+/// Of the walls that sway the pose, those that do most.
+void Protection::keep(int wall, const Vector3d& separation) {
+  const auto sway = [](const Vector3d& apart) { return apart.head<2>().squaredNorm(); };
+  if (sway(separation) < kLeastSway * kLeastSway) return;
+  if (followed_.size() < kMostFollowed) {
+    followed_.push_back({wall, separation, false});
+    return;
+  }
+  const auto least = std::min_element(followed_.begin(), followed_.end(),
+                                      [&](const Followed& a, const Followed& b) {
+                                        return sway(a.separation) < sway(b.separation);
+                                      });
+  if (sway(least->separation) < sway(separation)) *least = {wall, separation, false};
 }
 
 }  // namespace adit

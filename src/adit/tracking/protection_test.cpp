@@ -76,8 +76,9 @@ TEST(RadiusOf, MindsNeitherAxesNorUnitsNorHeading) {
 /// A room whose walls each show the position across them, and a little of the heading.
 class Room {
  public:
-  explicit Room(const Pose2& fitted_at) : fitted_at_(fitted_at) {
-    prediction_.covariance = Vector3d(0.3, 0.3, 0.05).cwiseAbs2().asDiagonal();
+  explicit Room(const Pose2& fitted_at, double prediction_sigma_m = 0.3) : fitted_at_(fitted_at) {
+    prediction_.covariance =
+        Vector3d(prediction_sigma_m, prediction_sigma_m, 0.05).cwiseAbs2().asDiagonal();
   }
 
   /// A wall whose normal points this way (rad); the plan has it off by so much (m).
@@ -85,7 +86,8 @@ class Room {
     const Vector3d gradient(std::cos(bearing), std::sin(bearing), 2.0 * std::sin(3.0 * bearing));
     const Vector3d from_fit = truth_.vector() - fitted_at_.vector();
     const double weight = 1.0 / (kSigma * kSigma);
-    walls_.push_back({weight * gradient * gradient.transpose(),
+    const int wall = static_cast<int>(walls_.size());
+    walls_.push_back({wall, weight * gradient * gradient.transpose(),
                       weight * (gradient.dot(from_fit) + off) * gradient});
   }
 
@@ -107,8 +109,13 @@ class Room {
   }
 
   double level(const ProtectionOptions& options = {}) const {
-    return protection_level(estimate(), prediction_, fitted_at_, walls_, options);
+    Protection protection;
+    return level(protection, options);
   }
+  double level(Protection& protection, const ProtectionOptions& options = {}) const {
+    return protection.update(estimate(), prediction_, fitted_at_, walls_, options);
+  }
+  Vector3d error_vector() const { return difference(truth_, estimate().pose); }
   double error() const { return (estimate().pose.translation() - truth_.translation()).norm(); }
 
   static constexpr double kSigma = 0.05;
@@ -185,6 +192,30 @@ TEST(ProtectionLevel, CoversAPredictionThatFollowedTheWrongWallBefore) {
             room.level({.risk = 1e-3, .margin = 1.0, .loose_prior = 1.0}));
 }
 
+TEST(ProtectionLevel, RemembersTheWallThatThePredictionFollowed) {
+  constexpr double kGoodDeadReckoning = 0.03;  // m
+  Protection protection;
+  Vector3d error = Vector3d::Zero();
+  double level = 0.0;
+  const auto scan = [&](std::initializer_list<double> bearings, double off) {
+    Room room(kFittedAt, kGoodDeadReckoning);
+    room.set_prediction_error(error);
+    for (const double bearing : bearings) room.add_wall(bearing, bearing == 0.0 ? off : 0.0);
+    level = room.level(protection, {.risk = 1e-3, .margin = 1.0});
+    error = room.error_vector();
+    EXPECT_GT(level, room.error());
+  };
+  // The only wall for x lies off by a metre, scan after scan, and dead reckoning is good.
+  for (int i = 0; i < 20; ++i) scan({0.0, 1.5, 1.7}, 1.0);
+  EXPECT_NEAR(error.head<2>().norm(), 1.0, 0.1);
+  // It gets out of sight; nothing else shows x.
+  for (int i = 0; i < 5; ++i) scan({1.5, 1.7, 1.9}, 0.0);
+  const double doubtful = level;
+  // Others do, and the doubt goes.
+  for (int i = 0; i < 10; ++i) scan({0.0, 0.2, -0.2, 1.5, 1.7, 1.9}, 0.0);
+  EXPECT_LT(level, 0.3 * doubtful);
+}
+
 TEST(ProtectionLevel, GrowsWithLessRiskAndMoreMargin) {
   Room room(kFittedAt);
   for (int i = 0; i < 5; ++i) room.add_wall(1.3 * i, 0.1);
@@ -197,11 +228,12 @@ TEST(ProtectionLevel, MindsOnlyDifferencesOfHeadings) {
   // A place that hangs on the heading, so that a heading off by a turn would show in metres.
   Matrix3d prior = covariance(0.1, 0.1, 0.0);
   prior(0, 2) = prior(2, 0) = 0.09;
-  const WallEvidence wall{100.0 * Matrix3d::Identity(), Vector3d(1.0, 2.0, 3.0)};
+  const WallEvidence wall{0, 100.0 * Matrix3d::Identity(), Vector3d(1.0, 2.0, 3.0)};
   const std::vector<WallEvidence> walls(2, wall);
   const auto level = [&](double heading) {
     const auto turned = [&](double by) { return Pose2{0.0, 0.0, wrap_angle(heading + by)}; };
-    return protection_level({turned(0.0), prior}, {turned(0.02), prior}, turned(-0.01), walls, {});
+    return Protection().update({turned(0.0), prior}, {turned(0.02), prior}, turned(-0.01), walls,
+                               {});
   };
   for (double heading = -kPi; heading < kPi; heading += 0.005) {
     ASSERT_NEAR(level(heading), level(0.0), 1e-9) << heading;
