@@ -102,7 +102,11 @@ Hypotheses::Witness Hypotheses::take_in(Hypothesis& hypothesis, const Hypotheses
 void Hypotheses::judge(const ScanFit& fit, const FitQuality& quality, const HypothesesTurn& turn,
                        const HypothesesOptions& options, Hypothesis& hypothesis) {
   if (!explains(quality, turn.status)) {
-    ++hypothesis.contradicted;
+    // Where one wall of the plan is wrong, a place that looks alike but for it explains scans
+    // better. That alone does not refute the way here.
+    const bool may_hold =
+        hypothesis.is_own && explains(quality_of(turn.own_but_a_wall), turn.status);
+    hypothesis.contradicted = may_hold ? 0 : hypothesis.contradicted + 1;
     hypothesis.explained = 0;
     return;
   }

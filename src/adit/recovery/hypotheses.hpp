@@ -62,6 +62,8 @@ struct HypothesesTurn {
   /// The pose by dead reckoning as it was before the scan, and the scan's fit there.
   const PoseTracker& own;
   const ScanFit& own_fit;
+  /// The same fit if the wall that gainsays it most is not where the plan has it.
+  const ScanFit& own_but_a_wall;
 };
 
 /// Poses of which any may be the true one, carried along until motion and scans have decided.

@@ -57,7 +57,8 @@ class HypothesesTest : public ::testing::Test {
     own.predict({way_m, 0.0, 0.0}, OdometryNoise{}, tracking);
     Refiner refiner;
     const ScanFit fit = refiner.refine(input, own.estimate(), own.estimate(), refinement);
-    hypotheses.weigh({input, way_m, refinement, tracking, status, own, fit}, options);
+    const ScanFit but_a_wall = refiner.without_worst_wall(refinement);
+    hypotheses.weigh({input, way_m, refinement, tracking, status, own, fit, but_a_wall}, options);
   }
 
   LineMap map = LineMap::build(two_rooms());
@@ -128,6 +129,30 @@ TEST_F(HypothesesTest, NoneIsBelievedWhileThePoseByDeadReckoningExplainsTheScans
   EXPECT_GT(hypotheses.all().front().weight, options.sure_weight);
   EXPECT_FALSE(hypotheses.is_decided(options));
   EXPECT_TRUE(hypotheses.leader().is_own);
+}
+
+TEST_F(HypothesesTest, OneWallThatHasMovedDoesNotRefuteTheWayHere) {
+  // The second room is the first with its far wall drawn back, and so is the world's first room.
+  const auto room = [](double x0, double x1) {
+    const Vector2d a(x0, 0.0), b(x1, 0.0), c(x1, 9.0), d(x0, 9.0);
+    return std::vector<Segment>{{a, b}, {b, c}, {c, d}, {d, a}};
+  };
+  std::vector<Segment> plan = room(0.0, 8.0);
+  for (const Segment& wall : room(40.0, 52.0)) plan.push_back(wall);
+  map = LineMap::build(plan);
+  status.most_behind_ratio = 0.25;  // as many beams as that wall takes contradict a pose
+  own.start(near({4.0, 4.0, 0.2}));
+  Hypotheses hypotheses;
+  hypotheses.add(near({44.0, 4.0, 0.2}), options);
+  hypotheses.add_own(own, options);
+  Pose2 seen = Pose2{44.0, 4.0, 0.2} * Pose2{0.3, 0.0, 0.0};
+  for (int i = 0; i < 12; ++i) {
+    drive(hypotheses, seen, 0.3);
+    seen = seen * Pose2{0.3, 0.0, 0.0};
+    EXPECT_FALSE(hypotheses.is_decided(options)) << i;
+  }
+  EXPECT_GT(hypotheses.all().front().weight, 0.99);
+  EXPECT_FALSE(hypotheses.all().front().is_own);
 }
 
 TEST_F(HypothesesTest, WhatASearchFindsWhereDeadReckoningIsNeedsNoWay) {

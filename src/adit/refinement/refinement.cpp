@@ -127,13 +127,46 @@ const ScanFit& Refiner::refine(const RefinementInput& input, const PoseWithCovar
     fit_.converged = !is_coarse && is_last(length, options);
   }
   fit_.white_information = white_information(input);
-  const BeamSummary summary = classifier_.summary(residuals_.beams());
-  fit_.counts = summary.counts;
-  fit_.counts.unmapped = residuals_.unmapped();
-  fit_.log_evidence = classifier_.log_evidence();
-  fit_.expected_log_evidence = summary.expected_log_evidence;
+  count(classifier_, residuals_.beams(), fit_);
   fit_.log_likelihood = log_likelihood(options);
   return fit_;
+}
+
+void Refiner::count(const BeamClassifier& classifier, std::span<const BeamResidual> beams,
+                    ScanFit& fit) const {
+  const BeamSummary summary = classifier.summary(beams);
+  fit.counts = summary.counts;
+  fit.counts.unmapped = residuals_.unmapped();
+  fit.log_evidence = classifier.log_evidence();
+  fit.expected_log_evidence = summary.expected_log_evidence;
+}
+
+ScanFit Refiner::without_worst_wall(const RefinementOptions& options) {
+  const int worst = worst_wall();
+  spare_beams_.assign(residuals_.beams().begin(), residuals_.beams().end());
+  for (BeamResidual& beam : spare_beams_) beam.has_return = beam.has_return && beam.wall != worst;
+  spare_classifier_.classify(spare_beams_, spread_, options);
+  ScanFit fit = fit_;
+  count(spare_classifier_, spare_beams_, fit);
+  return fit;
+}
+
+/// The wall that most returns should have met and did not.
+int Refiner::worst_wall() {
+  off_wall_.clear();
+  const std::span<const BeamResidual> beams = residuals_.beams();
+  for (std::size_t k = 0; k < beams.size(); ++k) {
+    if (!beams[k].has_return) continue;
+    const int wall = beams[k].wall;
+    auto known = std::find_if(off_wall_.begin(), off_wall_.end(),
+                              [&](const auto& entry) { return entry.first == wall; });
+    if (known == off_wall_.end()) known = off_wall_.insert(known, {wall, 0.0});
+    known->second += 1.0 - classifier_.on_wall()[k];
+  }
+  const auto worst =
+      std::max_element(off_wall_.begin(), off_wall_.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  return worst != off_wall_.end() ? worst->first : -1;
 }
 
 Pose2 Refiner::most_likely(const RefinementInput& input, const PoseWithCovariance& prior,

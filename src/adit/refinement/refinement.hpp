@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "adit/geometry/pose2.hpp"
@@ -77,6 +78,10 @@ class Refiner {
                     std::span<const Pose2> poses, const Matrix3d& spread,
                     const RefinementOptions& options);
 
+  /// The last fit, judged as if the wall that gainsays it most were not in the plan: one may have
+  /// moved.
+  ScanFit without_worst_wall(const RefinementOptions& options);
+
   /// The beams of the last step and the probability of each to have met the map's wall.
   std::span<const BeamResidual> beams() const { return residuals_.beams(); }
   std::span<const double> on_wall() const { return classifier_.on_wall(); }
@@ -100,11 +105,17 @@ class Refiner {
   double step(const PoseWithCovariance& prior, bool moving, const RefinementOptions& options,
               Matrix3d& spread);
   double log_likelihood(const RefinementOptions& options) const;
+  int worst_wall();
+  void count(const BeamClassifier& classifier, std::span<const BeamResidual> beams,
+             ScanFit& fit) const;
   bool is_last(double length, const RefinementOptions& options);
 
   BeamResiduals residuals_;
   BeamClassifier classifier_;
-  std::vector<double> noise_;   // variance that a beam shares with no other (m²)
+  BeamClassifier spare_classifier_;
+  std::vector<BeamResidual> spare_beams_;
+  std::vector<std::pair<int, double>> off_wall_;  // beams, wall by wall
+  std::vector<double> noise_;                     // variance that a beam shares with no other (m²)
   std::vector<double> spread_;  // variance of a residual; corners count as sharp (m²)
   double last_share_ = 0.0;
   double spread_share_ = 0.0;  // of the doubt about the pose in that, on average
