@@ -18,6 +18,10 @@ enum class TrialWorld { mockup, panel, drift, drift_rough, straight, sweep, swee
 /// Scan after scan with odometry, or each scan alone from a guess of its own.
 enum class TrialMode { tracking, single };
 
+/// While the odometry's error stays what it is: from stamp to stamp, so that it changes in the
+/// middle of a sweep, or sweep by sweep.
+enum class ErrorSpan { stamps, sweeps };
+
 /// What goes wrong, one thing at a time.
 enum class Fault {
   none,
@@ -40,6 +44,8 @@ inline constexpr auto kWords<TrialWorld> = std::to_array<std::string_view>(
 template <>
 inline constexpr auto kWords<TrialMode> = std::to_array<std::string_view>({"tracking", "single"});
 template <>
+inline constexpr auto kWords<ErrorSpan> = std::to_array<std::string_view>({"stamps", "sweeps"});
+template <>
 inline constexpr auto kWords<Fault> = std::to_array<std::string_view>({"none", "clutter", "dust",
                                                                        "dropouts", "wall_moved",
                                                                        "pillar_missing", "slip",
@@ -61,6 +67,7 @@ struct TrialOptions {
   TrialMode mode = TrialMode::tracking;
   Estimator estimator = Estimator::full;
   Fault fault = Fault::none;
+  ErrorSpan errors = ErrorSpan::sweeps;
   int runs = 60;
   int answers = 0;
   std::uint64_t seed = 1;
@@ -76,6 +83,8 @@ struct TrialOptions {
     field("mode", self.mode, "with odometry from scan to scan, or each scan alone");
     field("estimator", self.estimator, "what says where the vehicle is");
     field("fault", self.fault, "what goes wrong");
+    field("errors", self.errors,
+          "of a sweep world's odometry are steady from stamp to stamp or through each sweep");
     field("runs", self.runs, "seeds, one a run");
     field("answers", self.answers, "above 0: as many seeds as make so many judged answers");
     field("seed", self.seed, "the first seed");

@@ -36,6 +36,10 @@ constexpr double kAcceptedLength = 2.0;
 // Less likely than this to have met the wall: the beam is left out.
 constexpr double kLeastProbability = 0.01;
 
+// Of odometry's errors in the two halves of a sweep. Wheels slip and scales are off for longer than
+// a sweep lasts, but not only.
+constexpr double kHalvesCorrelation = 1.0 / 3.0;
+
 /// The gradient over the pose and, on the move, over the correction of the sweep's motion.
 template <int N>
 Eigen::Matrix<double, N, 1> parameters_gradient(const BeamResidual& beam, const RigidTransform& map,
@@ -83,17 +87,22 @@ void add_share(int wall, const NormalEquations<N>& equations, std::vector<WallSh
   }
 }
 
-/// Dead reckoning's word on the correction. As a random walk it errs in each half by half of the
-/// whole sweep's variance, so twice the variance holds of a half's mean motion.
+/// Dead reckoning's word on the correction. What is known is the covariance C of the whole sweep's
+/// mean motion. Between an error that is steady and a random walk lie halves whose errors are
+/// correlated, by r: each then has 2 C / (1 + r), and the two the information
+/// [1, -r; -r, 1] / (2 - 2 r) times C's inverse.
 void add_motion_prior(const SweepPrior& motion, const SweepCorrection& correction,
                       NormalEquations<9>& sum) {
-  const Matrix3d confidence = (2.0 * motion.covariance).inverse();
-  for (int half = 0; half < 2; ++half) {
-    const int first = 3 + 3 * half;
-    sum.information.block<3, 3>(first, first) += confidence;
-    sum.score.segment<3>(first) -=
-        confidence * correction.halves[static_cast<std::size_t>(half)].vector();
-  }
+  const Matrix3d own = motion.covariance.inverse() / (2.0 - 2.0 * kHalvesCorrelation);
+  const Matrix3d other = -kHalvesCorrelation * own;
+  const Vector3d first = correction.halves[0].vector();
+  const Vector3d second = correction.halves[1].vector();
+  sum.information.block<3, 3>(3, 3) += own;
+  sum.information.block<3, 3>(6, 6) += own;
+  sum.information.block<3, 3>(3, 6) += other;
+  sum.information.block<3, 3>(6, 3) += other;
+  sum.score.segment<3>(3) -= own * first + other * second;
+  sum.score.segment<3>(6) -= other * first + own * second;
 }
 
 }  // namespace

@@ -217,7 +217,7 @@ TEST(RefinementStatistics, OnWallsThatErrTogetherTheCovarianceIsHonest) {
 const Twist2 kDrive{5.0, 0.0, radians(45.0)};
 
 /// The drive as wheels report it whose mean speed errs by this part, one sigma: steadily in each
-/// half of the sweep.
+/// half of the sweep, and in the two not independently.
 SweepPrior odometry_of(double error_ratio, const ScannerModel& model, Random& random) {
   const Vector3d sigmas = error_ratio * Vector3d(kDrive.vx, 0.2 * kDrive.vx, kDrive.omega);
   SweepPrior odometry;
@@ -225,9 +225,11 @@ SweepPrior odometry_of(double error_ratio, const ScannerModel& model, Random& ra
   odometry.path = steady_path(kDrive, sweep_timing(model, kBeams), kBeams);
   SweepCorrection error;
   error.middle_s = odometry.path.begin_s + 0.5 * odometry.path.span_s;
+  const auto draw = [&] { return test::drawn<3>([&] { return random.normal(); }); };
+  const Vector3d shared = draw();
   for (Twist2& half : error.halves) {
-    const Vector3d draw = test::drawn<3>([&] { return random.normal(); });
-    half = Twist2::from_vector(std::sqrt(2.0) * sigmas.cwiseProduct(draw));
+    const Vector3d mixed = std::sqrt(0.5) * shared + draw();
+    half = Twist2::from_vector(sigmas.cwiseProduct(mixed));
   }
   for (std::size_t k = 0; k < odometry.path.stamp_from_vehicle.size(); ++k) {
     Pose2& pose = odometry.path.stamp_from_vehicle[k];

@@ -45,8 +45,8 @@ inline SweepPath steady_path(const Twist2& twist, const SweepTiming& timing, std
 }
 
 /// What dead reckoning missed of a sweep's motion: two steady motions, seen from the vehicle at the
-/// stamp, one for each half of the sweep (odometry errs like a random walk, which one steady motion
-/// cannot follow).
+/// stamp, one for each half of the sweep (odometry's error need not be steady for as long as a
+/// sweep).
 struct SweepCorrection {
   static constexpr std::size_t kHalves = 2;
 

@@ -89,36 +89,74 @@ std::vector<double> scan_stamps(const TimedPath& path, const ScannerSpec& spec, 
   }
 }
 
-/// Dead reckoning at the scans, and between them at the odometry's own rate. The error of a move
-/// between two scans is drawn once and spread over it, so that the declared noise, which is linear
-/// in the move, holds however often the wheels are read.
+/// Dead reckoning along a path. The error of a move from knot to knot is drawn once and spread over
+/// it, so that the declared noise, which is linear in the move, holds however often the wheels are
+/// read.
+class Wheels {
+ public:
+  Wheels(const TimedPath& felt, std::span<const double> knots, const Pose2& start,
+         const DriveOptions& options, std::uint64_t seed)
+      : felt_(felt), slip_ratio_(options.slip_ratio) {
+    Random random(seed, kWheels);
+    moves_.push_back({knots.front(), knots.front(), start, Vector3d::Zero()});
+    for (std::size_t i = 1; i < knots.size(); ++i) {
+      const Pose2 move = inverse(felt.at(knots[i - 1])) * felt.at(knots[i]);
+      const Vector3d error = draw_move_error(move, options.odometry, random);
+      moves_.back() = {knots[i - 1], knots[i], moves_.back().start, error};
+      moves_.push_back({knots[i], knots[i], read(knots[i], moves_.back()), Vector3d::Zero()});
+    }
+  }
+
+  Pose2 read(double t) const {
+    const auto after = std::upper_bound(moves_.begin(), moves_.end(), t,
+                                        [](double time, const Move& m) { return time < m.from; });
+    return read(t, after == moves_.begin() ? *after : *(after - 1));
+  }
+
+ private:
+  struct Move {
+    double from, to;
+    Pose2 start;
+    Vector3d error;
+  };
+
+  Pose2 read(double t, const Move& move) const {
+    const double length = move.to - move.from;
+    const double done = length > 0.0 ? std::clamp((t - move.from) / length, 0.0, 1.0) : 0.0;
+    return move.start * reported_move(inverse(felt_.at(move.from)) * felt_.at(t), slip_ratio_,
+                                      done * move.error);
+  }
+
+  const TimedPath& felt_;
+  double slip_ratio_;
+  std::vector<Move> moves_;  // the last has no end
+};
+
+/// When the odometry's error changes: at the scans, or before each by a part of the time between.
+std::vector<double> error_knots(const Recording& recording, const DriveOptions& options) {
+  const double lead = options.odometry_error_lead / options.scan_rate_hz;
+  std::vector<double> knots;
+  for (const StampedPose& truth : recording.truth) knots.push_back(truth.stamp - lead);
+  if (lead > 0.0) knots.push_back(knots.back() + 1.0 / options.scan_rate_hz);
+  return knots;
+}
+
+/// Dead reckoning at the scans, and between them at the odometry's own rate.
 void add_odometry(const TimedPath& felt, const DriveOptions& options, std::uint64_t seed,
                   Recording& recording) {
-  Random random(seed, kWheels);
-  recording.odometry.assign(1, recording.first_guess.pose);
-  int reading = 0;
-  const auto read_wheels = [&](double until, double from, double to, const Vector3d& error) {
-    if (options.odometry_rate_hz <= 0.0) return;
-    for (;; ++reading) {
-      const double t = felt.begin() + reading / options.odometry_rate_hz;
-      if (t >= until) return;
-      const Pose2 move = inverse(felt.at(from)) * felt.at(t);
-      const double done = to > from ? std::clamp((t - from) / (to - from), 0.0, 1.0) : 0.0;
-      recording.wheels.push_back(
-          {t, recording.odometry.back() * reported_move(move, options.slip_ratio, done * error)});
-    }
-  };
-  for (std::size_t i = 1; i < recording.truth.size(); ++i) {
-    const double from = recording.truth[i - 1].stamp;
-    const double to = recording.truth[i].stamp;
-    const Pose2 move = inverse(felt.at(from)) * felt.at(to);
-    const Vector3d error = draw_move_error(move, options.odometry, random);
-    read_wheels(to, from, to, error);
-    recording.odometry.push_back(recording.odometry.back() *
-                                 reported_move(move, options.slip_ratio, error));
+  const Wheels wheels(felt, error_knots(recording, options), recording.first_guess.pose, options,
+                      seed);
+  // Dead reckoning begins at the first guess.
+  const Pose2 onto_guess =
+      recording.first_guess.pose * inverse(wheels.read(recording.truth.front().stamp));
+  for (const StampedPose& truth : recording.truth) {
+    recording.odometry.push_back(onto_guess * wheels.read(truth.stamp));
   }
-  const double last = recording.truth.back().stamp;
-  read_wheels(felt.end(), last, last, Vector3d::Zero());
+  if (options.odometry_rate_hz <= 0.0) return;
+  for (int i = 0; felt.begin() + i / options.odometry_rate_hz < felt.end(); ++i) {
+    const double t = felt.begin() + i / options.odometry_rate_hz;
+    recording.wheels.push_back({t, onto_guess * wheels.read(t)});
+  }
 }
 
 }  // namespace

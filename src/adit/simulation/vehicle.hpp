@@ -22,6 +22,7 @@ struct DriveOptions {
   double turn_rate_rad_per_s = 0.5;
   double scan_rate_hz = 5.0;
   double odometry_rate_hz = 50.0;
+  double odometry_error_lead = 0.0;
   double stop_interval_s = 3.0;
   int hops = 0;
   double hop_m = 0.2;
@@ -41,6 +42,9 @@ struct DriveOptions {
     field("scan_rate_hz", self.scan_rate_hz, "scans a second of a drive");
     field("odometry_rate_hz", self.odometry_rate_hz,
           "odometry poses a second of a drive, beside those at the scans; 0 for none");
+    field("odometry_error_lead", self.odometry_error_lead,
+          "the error of a drive's odometry is steady from scan to scan, and changes so much before "
+          "each, in parts of the time between them");
     field("stop_interval_s", self.stop_interval_s,
           "time from stop to stop (s); the paper's cycle time");
     field("hops", self.hops, "jumps of the machine that its odometry does not see");

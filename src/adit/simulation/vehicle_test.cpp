@@ -211,6 +211,39 @@ TEST(RecordDrive, ErrsAsDeclaredBetweenScans) {
   EXPECT_NEAR(nees / count, 3.0, 0.15);
 }
 
+TEST(RecordDrive, ItsErrorCanChangeBetweenTheScans) {
+  const World world = mockup();
+  DriveOptions options;
+  options.odometry_error_lead = 0.5;
+  double nees = 0.0;
+  double steadiness = 0.0;
+  int count = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const Recording run = record_drive(world, world.path, few_beams(), options, seed);
+    const TimedPath truth =
+        drive_along(world.path, options.speed_m_per_s, options.turn_rate_rad_per_s);
+    // Scans lie 0.2 s apart, so errors change 0.1 s after each; wheels are read every 0.02 s.
+    for (std::size_t k = 5; k + 10 < run.wheels.size(); k += 10) {
+      const auto error_until = [&](std::size_t end) {
+        const Pose2 move = inverse(truth.at(run.wheels[k].stamp)) * truth.at(run.wheels[end].stamp);
+        const Pose2 reported = inverse(run.wheels[k].pose) * run.wheels[end].pose;
+        return Vector3d(reported.x - move.x, reported.y - move.y,
+                        angle_between(move.theta, reported.theta));
+      };
+      const Pose2 move =
+          inverse(truth.at(run.wheels[k].stamp)) * truth.at(run.wheels[k + 10].stamp);
+      if (move.translation().norm() < 0.19) continue;
+      const Vector3d error = error_until(k + 10);
+      nees += error.dot(move_covariance(move, options.odometry).ldlt().solve(error));
+      steadiness = std::max(steadiness, (error_until(k + 5) - 0.5 * error).norm());
+      ++count;
+    }
+  }
+  ASSERT_GT(count, 1000);
+  EXPECT_NEAR(nees / count, 3.0, 0.15);
+  EXPECT_LT(steadiness, 1e-3);
+}
+
 TEST(RecordDrive, SweepsLieWithinTheDrive) {
   const World world = mockup();
   ScannerSpec spec = few_beams();
