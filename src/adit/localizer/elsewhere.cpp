@@ -70,12 +70,34 @@ void Localizer::give_up() {
   schedule_.note_failure(settings_.recovery);
 }
 
+/// Whether so little of the scan is explained that a trusted pose may be another.
+bool Localizer::is_doubtful() const {
+  const FitQuality quality = quality_of(scan_fit_);
+  return believed_ && quality.returns >= settings_.status.fewest_returns &&
+         quality.evidence_ratio < settings_.recovery.doubtful_evidence_ratio;
+}
+
+/// Whether a pose elsewhere explains much more of the scan than the trusted one did.
+bool Localizer::doubts(const RelocationResult& found) const {
+  const Pose2 own = tracker_.estimate().pose * inverse(since_search_.estimate().pose);
+  return std::any_of(found.poses.begin(), found.poses.end(), [&](const RankedPose& pose) {
+    return explains(pose.quality, settings_.status) &&
+           pose.quality.evidence_ratio > doubted_ + settings_.recovery.doubt_gain &&
+           !are_one(pose.pose, own, settings_.hypotheses);
+  });
+}
+
 /// Takes what the search found, carried on to this scan by dead reckoning, and beside it the pose
 /// that dead reckoning alone has kept.
 void Localizer::take_search() {
   const RelocationResult found = finder_.take();
-  const bool is_lost = is_anywhere_ || trust_.contradicted();
-  if (hypotheses_.empty() && !is_lost) return;  // the scans have found the pose meanwhile
+  if (hypotheses_.empty() && !is_anywhere_ && !trust_.contradicted()) {
+    if (!doubts(found)) {
+      doubts_.note_failure(settings_.recovery);
+      return;
+    }
+    trust_.doubt();
+  }
   const bool is_first = hypotheses_.empty();
   bool is_news = found.verdict == Status::lost;
   for (const RankedPose& pose : found.poses) {
@@ -116,18 +138,21 @@ void Localizer::follow(const Hypotheses::Hypothesis& hypothesis, const Refinemen
   scan_fit_ = refine_from(input, {predicted_.pose, floored(predicted_.covariance)});
 }
 
-/// Begins a search: for a scan that contradicts the pose, or for one at which a pose is about to be
-/// believed.
+/// Begins a search: for a scan that contradicts the pose, for one of which a trusted pose explains
+/// little, or for one at which a pose is about to be believed.
 void Localizer::seek_elsewhere(const LaserScan& scan) {
   if (!uses_points() || !settings_.recovery.searches || finder_.is_searching()) return;
   const bool is_lost = is_anywhere_ || trust_.contradicted();
-  const bool is_due = hypotheses_.empty() ? is_lost && schedule_.is_search_due()
-                                          : hypotheses_.is_decided(settings_.hypotheses);
-  if (!is_due) return;
+  const auto is_due = [&] {
+    if (!hypotheses_.empty()) return hypotheses_.is_decided(settings_.hypotheses);
+    return is_lost ? schedule_.is_search_due() : is_doubtful() && doubts_.is_search_due();
+  };
+  if (!is_due()) return;
   if (scan_fit_.counts.returns() < settings_.status.fewest_returns && !is_anywhere_) return;
   finder_.begin(query_for(scan), finder_options());
   schedule_.begin(settings_.recovery);
   is_confirmed_ = false;
+  doubted_ = quality_of(scan_fit_).evidence_ratio;
   since_search_.start({});
 }
 

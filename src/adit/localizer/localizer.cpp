@@ -110,7 +110,7 @@ void Localizer::forget() {
   is_confirmed_ = false;
   trusted_m_ = std::numeric_limits<double>::infinity();  // by whoever states the start
   is_found_ = true;
-  schedule_ = SearchSchedule{};
+  schedule_ = doubts_ = SearchSchedule{};
   estimate_ = Estimate{};
 }
 

@@ -125,6 +125,8 @@ class Localizer {
   void forget();
   RelocationQuery query_for(const LaserScan& scan) const;
   PlaceFinderOptions finder_options() const;
+  bool is_doubtful() const;
+  bool doubts(const RelocationResult& found) const;
   void take_search();
   void believe(bool is_own);
   void give_up();
@@ -161,6 +163,8 @@ class Localizer {
   // While the pose is lost.
   PlaceFinder finder_;
   SearchSchedule schedule_;
+  SearchSchedule doubts_;  // of poses that are trusted
+  double doubted_ = 0.0;   // what the trusted pose explained of the scan that is looked for
   Hypotheses hypotheses_;
   PoseTracker since_search_;   // dead reckoning from where the scan that is looked for was taken
   double trusted_m_ = 0.0;     // way since the pose was found

@@ -225,6 +225,38 @@ TEST_F(LocalizerTest, AScanOfAnotherPlaceIsRefused) {
   EXPECT_EQ(e.status, Status::lost);
 }
 
+/// Two halls that are alike but for a wall across the second.
+std::vector<Segment> two_halls() {
+  const auto hall = [](double x, double length) {
+    const Vector2d a(x, 0), b(x + length, 0), c(x + length, 9), d(x, 9), e(x, 6), f(x + 1, 6),
+        g(x + 1, 5), h(x, 5);
+    return std::vector<Segment>{{a, b}, {b, c}, {c, d}, {d, e}, {e, f}, {f, g}, {g, h}, {h, a}};
+  };
+  std::vector<Segment> plan = hall(0.0, 20.0);
+  for (const Segment& wall : hall(50.0, 4.5)) plan.push_back(wall);
+  return plan;
+}
+
+TEST_F(LocalizerTest, APoseThatExplainsLittleIsDoubtedWhereAnotherExplainsMuch) {
+  const LineMap halls = LineMap::build(two_halls());
+  const auto status_after = [&](const Pose2& truth, double doubtful_evidence_ratio) {
+    LocalizerSettings with = settings();
+    with.recovery.doubtful_evidence_ratio = doubtful_evidence_ratio;
+    Localizer localizer(halls, with);
+    localizer.start({3.0, 4.0, 0.1});
+    Status status = Status::lost;
+    for (int i = 0; i < 8; ++i) {
+      status = localizer.update(scan_from(halls, truth, 100.0 + i), Pose2{}).status;
+    }
+    return status;
+  };
+  // From the second hall's place, what is missing of the first may be hidden by clutter.
+  const Pose2 second{53.0, 4.0, 0.1};
+  EXPECT_EQ(status_after(second, 0.0), Status::ok);
+  EXPECT_EQ(status_after(second, 0.9), Status::ambiguous);
+  EXPECT_EQ(status_after({3.0, 4.0, 0.1}, 0.9), Status::ok);
+}
+
 TEST_F(LocalizerTest, TheGyroReplacesTheRotationOfTheWheels) {
   const Pose2 wrong_move{0.5, 0.0, 0.5};  // the wheels slip; the vehicle did not turn so far
   const double gyro_turn = -0.2;

@@ -18,13 +18,13 @@ PoseWithCovariance loosened(const PoseWithCovariance& pose) {
   return out;
 }
 
+}  // namespace
+
 bool are_one(const Pose2& a, const Pose2& b, const HypothesesOptions& options) {
   const Vector3d apart = difference(a, b);
   return apart.head<2>().norm() < options.same_place_m &&
          std::abs(apart.z()) < options.same_heading_rad;
 }
-
-}  // namespace
 
 void Hypotheses::add_own(const PoseTracker& tracker, const HypothesesOptions& options) {
   std::erase_if(all_, [&](const Hypothesis& known) {

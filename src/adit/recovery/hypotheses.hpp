@@ -52,6 +52,9 @@ struct HypothesesOptions {
   }
 };
 
+/// Whether two poses are the same but for what searches and fits leave of doubt.
+bool are_one(const Pose2& a, const Pose2& b, const HypothesesOptions& options);
+
 /// What the next scan is held against the hypotheses with.
 struct HypothesesTurn {
   const RefinementInput& input;

@@ -7,6 +7,8 @@ namespace adit {
 /// When a lost pose is looked for in the whole mine.
 struct RecoveryOptions {
   bool searches = true;
+  double doubtful_evidence_ratio = 0.65;
+  double doubt_gain = 0.2;
   int scans_for_search = 2;
   int scans_between = 5;
   int most_scans_between = 80;
@@ -16,6 +18,12 @@ struct RecoveryOptions {
     field("searches", self.searches,
           "a pose that a scan contradicts is looked for in the whole mine; without, a start "
           "anywhere finds nothing");
+    field(
+        "doubtful_evidence_ratio", self.doubtful_evidence_ratio,
+        "a trusted pose that explains less of a scan is looked for as well: it may be in clutter, "
+        "or in a place that looks like another; 0 for never");
+    field("doubt_gain", self.doubt_gain,
+          "and doubted where a pose elsewhere explains so much more of the scan");
     field("scans_for_search", self.scans_for_search,
           "the search runs beside the cycle; its answer is taken so many scans after the one that "
           "was looked for, no sooner and no later, so that a replay gives the same");

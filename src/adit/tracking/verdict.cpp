@@ -16,8 +16,7 @@ bool explains(const FitQuality& quality, const StatusOptions& options) {
 
 bool Trust::next(const FitQuality& quality, double way_m, const StatusOptions& options) {
   if (quality.returns < options.fewest_returns) return false;
-  const bool agrees = quality.agrees || quality.evidence_ratio > options.regain_evidence_ratio;
-  if (!agrees || !explains(quality, options) || is_sudden(quality, options)) {
+  if (disagrees(quality, options) || !explains(quality, options) || is_sudden(quality, options)) {
     contradicted_ = true;
     regained_m_ = 0.0;
     return false;
@@ -40,14 +39,27 @@ void Trust::note_usual(const FitQuality& quality) {
   usual_behind_ += (quality.behind_ratio - usual_behind_) / scans_;
 }
 
+/// The evidence ratio of scans around here.
+double Trust::usual(const StatusOptions& options) const {
+  return scans_ >= options.usual_scans ? usual_ : options.first_evidence_ratio;
+}
+
+/// Whether the fit lies where dead reckoning does not expect it and does not make up for that by
+/// how much of the scan it explains.
+bool Trust::disagrees(const FitQuality& quality, const StatusOptions& options) const {
+  if (quality.agrees) return false;
+  const bool has_dropped =
+      !contradicted_ && usual(options) - quality.evidence_ratio > options.disagreeing_drop;
+  return has_dropped || quality.evidence_ratio <= options.regain_evidence_ratio;
+}
+
 /// Whether the vehicle seems to have been carried off: from one scan to the next the map explains
 /// less, and rock is seen through.
 bool Trust::is_sudden(const FitQuality& quality, const StatusOptions& options) const {
   if (contradicted_) return false;
   const bool is_known = scans_ >= options.usual_scans;
-  const double usual = is_known ? usual_ : options.first_evidence_ratio;
   const double usual_behind = is_known ? usual_behind_ : options.first_behind_ratio;
-  return usual - quality.evidence_ratio > options.sudden_evidence_ratio &&
+  return usual(options) - quality.evidence_ratio > options.sudden_evidence_ratio &&
          quality.behind_ratio - usual_behind > options.sudden_behind_ratio;
 }
 

@@ -14,6 +14,7 @@ struct StatusOptions {
   double most_evidence_ratio = 0.55;
   double used_evidence_ratio = 0.15;
   double regain_evidence_ratio = 0.75;
+  double disagreeing_drop = 0.08;
   double regain_slack = 0.15;
   double regain_way_m = 5.0;
   double fewest_returns = 20.0;
@@ -47,6 +48,10 @@ struct StatusOptions {
     field("regain_evidence_ratio", self.regain_evidence_ratio,
           "where the scan lies beyond the tracking's gate, so much must be explained; and "
           "after a contradiction where no scan has yet shown what is usual");
+    field(
+        "disagreeing_drop", self.disagreeing_drop,
+        "a scan beyond that gate of which less is explained than is usual here by this contradicts "
+        "the pose: two oddities at once are no chance");
     field("regain_slack", self.regain_slack,
           "after a scan that contradicted the pose, as much must be explained as is usual here but "
           "for this ...");
@@ -121,7 +126,9 @@ class Trust {
 
  private:
   void note_usual(const FitQuality& quality);
+  double usual(const StatusOptions& options) const;
   bool is_sudden(const FitQuality& quality, const StatusOptions& options) const;
+  bool disagrees(const FitQuality& quality, const StatusOptions& options) const;
 
   bool contradicted_ = false;
   double usual_ = 0.0;         // evidence ratio while trusted, of so many scans, a sliding mean

@@ -95,8 +95,24 @@ TEST(Trust, AsksMoreWhereScanAndDeadReckoningDisagree) {
   fit.evidence_ratio = options.regain_evidence_ratio - 0.01;
   EXPECT_TRUE(explains(fit, options));
   EXPECT_FALSE(Trust{}.next(fit, 1.0, options));
-  fit.evidence_ratio = options.regain_evidence_ratio + 0.01;
+  fit.evidence_ratio = options.first_evidence_ratio - options.disagreeing_drop + 0.01;
   EXPECT_TRUE(Trust{}.next(fit, 1.0, options));
+}
+
+TEST(Trust, ADisagreementWithLessThanIsUsualContradictsThePose) {
+  const StatusOptions options;
+  FitQuality worse = good();
+  worse.evidence_ratio -= options.disagreeing_drop + 0.01;
+  FitQuality slipped = good();
+  slipped.agrees = false;
+  FitQuality both = worse;
+  both.agrees = false;
+  EXPECT_GT(both.evidence_ratio, options.regain_evidence_ratio);
+  Trust trust;
+  for (int i = 0; i < 10; ++i) EXPECT_TRUE(trust.next(good(), 1.0, options));
+  EXPECT_TRUE(trust.next(worse, 1.0, options));
+  EXPECT_TRUE(trust.next(slipped, 1.0, options));
+  EXPECT_FALSE(trust.next(both, 1.0, options));
 }
 
 TEST(Trust, ASuddenLookThroughRockContradictsThePose) {
