@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,7 +12,7 @@ namespace adit {
 /// The same as `beam_variance`, where 1 / cos² beta is at hand.
 inline double beam_variance_stretched(const ScannerModel& scanner, double range,
                                       double stretch_squared, double map_sigma_m) {
-  const double tan_squared = std::fmax(0.0, stretch_squared - 1.0);
+  const double tan_squared = std::max(0.0, stretch_squared - 1.0);
   const double beside = range * scanner.bearing_sigma_rad;
   return scanner.range_sigma_m * scanner.range_sigma_m +
          scanner.quantisation_m * scanner.quantisation_m / 12.0 +

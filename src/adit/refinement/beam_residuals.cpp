@@ -70,11 +70,6 @@ double BeamResiduals::longest_return() const {
   return longest;
 }
 
-bool BeamResiduals::is_return(std::size_t beam) const {
-  const double range = scan_->ranges[beam];  // not-a-number is no return
-  return range > 0.0 && range >= min_range_ && range < max_range_;
-}
-
 Pose2 BeamResiduals::laser_at(const Pose2& map_from_vehicle, const SweepPath& path,
                               const SweepCorrection& correction, double tau) const {
   return map_from_vehicle * correction.at(tau) * path.at(tau) * scan_->vehicle_from_laser;

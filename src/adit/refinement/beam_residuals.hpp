@@ -79,7 +79,10 @@ class BeamResiduals {
                         double reach);
 
   double longest_return() const;
-  bool is_return(std::size_t beam) const;
+  bool is_return(std::size_t beam) const {
+    const double range = scan_->ranges[beam];  // not-a-number is no return
+    return range > 0.0 && range >= min_range_ && range < max_range_;
+  }
 
   const LaserScan* scan_ = nullptr;
   const LineMap* swept_map_ = nullptr;  // the last sweep's, and where it was taken

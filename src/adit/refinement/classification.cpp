@@ -1,6 +1,7 @@
 #include "adit/refinement/classification.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace adit {
@@ -23,20 +24,28 @@ class LogProduct {
   double log_ = 0.0;
 };
 
-/// Of a return from something else (1/m): anywhere before the wall, or, rarely, anywhere as far
+/// A value for returns before the wall and one for those behind it. Picked by index: chance decides
+/// which, and no processor guesses a branch on it.
+using ByPlace = std::array<double, 2>;
+
+double of(const BeamResidual& beam, const ByPlace& values) {
+  return values[static_cast<std::size_t>(beam.residual < 0.0 ? 1 : 0)];
+}
+
+/// The shares of returns from something else: anywhere before the wall, or, rarely, anywhere as far
 /// behind it.
-double other_density(const BeamResidual& beam, const RefinementOptions& options) {
-  const double share = beam.residual < 0.0 ? 1.0 - options.long_ratio : options.long_ratio;
-  return share / beam.range;
+ByPlace other_shares(const RefinementOptions& options) {
+  return {options.long_ratio, 1.0 - options.long_ratio};
 }
 
 }  // namespace
 
 double log_other(std::span<const BeamResidual> beams, const RefinementOptions& options) {
   LogProduct product;
+  const ByPlace shares = other_shares(options);
   for (const BeamResidual& beam : beams) {
     if (!beam.has_return) continue;
-    product.multiply(other_density(beam, options) * (beam.range + beam.residual));
+    product.multiply(of(beam, shares) / beam.range * (beam.range + beam.residual));
   }
   return product.log();
 }
@@ -62,12 +71,12 @@ void BeamClassifier::find_ratios(std::span<const BeamResidual> beams,
     other_.resize(size);
     peak_.resize(size);
   }
-  const double before = 1.0 / ((1.0 - options.long_ratio) * std::sqrt(kTwoPi));
-  const double behind = 1.0 / (options.long_ratio * std::sqrt(kTwoPi));
+  ByPlace peaks_per_m = other_shares(options);
+  for (double& value : peaks_per_m) value = 1.0 / (value * std::sqrt(kTwoPi));
   for (Eigen::Index k = 0; k < size; ++k) {
     const BeamResidual& beam = beams[static_cast<std::size_t>(k)];
     ratio_[k] = -0.5 * beam.residual * beam.residual;
-    peak_[k] = beam.range * (beam.residual < 0.0 ? before : behind);
+    peak_[k] = beam.range * of(beam, peaks_per_m);
   }
   // The longest part of the work, over whole arrays.
   const Eigen::Map<const Eigen::ArrayXd> variance(variances.data(), size);
@@ -128,6 +137,7 @@ BeamSummary BeamClassifier::summary(std::span<const BeamResidual> beams) const {
   const double mean_loss = std::exp(-0.5);  // of a normal residual
   BeamSummary summary;
   LogProduct expected;
+  ByPlace elsewhere{};
   for (std::size_t k = 0; k < beams.size(); ++k) {
     if (!beams[k].has_return) {
       summary.counts.no_return += 1.0;
@@ -135,11 +145,13 @@ BeamSummary BeamClassifier::summary(std::span<const BeamResidual> beams) const {
     }
     const double weight = on_wall_[static_cast<Eigen::Index>(k)];
     summary.counts.wall += weight;
-    (beams[k].residual < 0.0 ? summary.counts.before : summary.counts.behind) += 1.0 - weight;
+    elsewhere[beams[k].residual < 0.0 ? 1 : 0] += 1.0 - weight;
     // Of the beams that would tell a wall from something else.
     const double ratio = mean_loss * peak_[static_cast<Eigen::Index>(k)];
     if (ratio > 1.0) expected.multiply(ratio);
   }
+  summary.counts.behind = elsewhere[0];
+  summary.counts.before = elsewhere[1];
   summary.expected_log_evidence = expected.log();
   return summary;
 }

@@ -1,14 +1,9 @@
 #include "adit/refinement/corner_zone.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "adit/refinement/wall_neighbours.hpp"
 
 namespace adit {
-namespace {
 
-/// Whether the wall turns at one of its vertices; where it ends or goes straight on it does not.
 bool is_corner(const LineMap& map, int wall, int vertex) {
   constexpr double kStraight = 0.94;  // cosine of 20 degrees
   const WallLine here = line_of(map, wall);
@@ -17,20 +12,6 @@ bool is_corner(const LineMap& map, int wall, int vertex) {
     if (std::abs(line_of(map, other).along.dot(here.along)) < kStraight) return true;
   }
   return false;
-}
-
-}  // namespace
-
-double corner_sigma(const LineMap& map, const BeamResidual& beam, const MapError& error,
-                    const RefinementOptions& options) {
-  const double zone = options.corner_reach_ratio * error.offset_sigma_m;
-  const Wall& wall = map.walls()[static_cast<std::size_t>(beam.wall)];
-  const double to_a = (beam.hit - wall.segment.a).squaredNorm();
-  const double to_b = (beam.hit - wall.segment.b).squaredNorm();
-  const double nearest = std::min(to_a, to_b);
-  if (nearest >= zone * zone) return 0.0;
-  if (!is_corner(map, beam.wall, to_a < to_b ? wall.vertex_a : wall.vertex_b)) return 0.0;
-  return options.corner_sigma_ratio * error.offset_sigma_m * (1.0 - std::sqrt(nearest) / zone);
 }
 
 }  // namespace adit
