@@ -242,7 +242,11 @@ void Localizer::judge(double stamp) {
   estimate_.covariance = tracker_.estimate().covariance;
   if (!uses_points()) estimate_.covariance += shared_map_error();
   estimate_.dead_reckoned = !contributed_;
-  if (is_anywhere_) estimate_.covariance = unknown_covariance();
+  if (is_anywhere_) {
+    estimate_.covariance = unknown_covariance();
+  } else if (!hypotheses_.empty()) {
+    estimate_.covariance = hypotheses_.covariance_about(estimate_.pose);
+  }
   if (!hypotheses_.empty() && contributed_) estimate_.status = Status::ambiguous;
   if (!believed_) return;
   estimate_.status = Status::ok;

@@ -62,8 +62,10 @@ void Hypotheses::weigh(const HypothesesTurn& turn, const HypothesesOptions& opti
   if (all_.empty()) return;
   witnesses_.clear();
   for (Hypothesis& hypothesis : all_) witnesses_.push_back(take_in(hypothesis, turn, options));
-  raise_odds(has_new_ ? 1.0 : std::min(1.0, turn.way_m / options.independent_way_m));
-  has_new_ = false;
+  if (std::any_of(witnesses_.begin(), witnesses_.end(), [](const Witness& w) { return w.sees; })) {
+    raise_odds(has_new_ ? 1.0 : std::min(1.0, turn.way_m / options.independent_way_m));
+    has_new_ = false;
+  }
   drop_contradicted(options);
   merge(options);
   normalise(options);
@@ -95,7 +97,7 @@ Hypotheses::Witness Hypotheses::take_in(Hypothesis& hypothesis, const Hypotheses
     hypothesis.tracker.update({fit.pose, fit.score, fit.information, fit.white_information},
                               turn.tracking);
   }
-  return {fit.log_likelihood, shared_ratio(fit)};
+  return {fit.log_likelihood, shared_ratio(fit), true};
 }
 
 /// Counts the scans that explain or contradict a hypothesis.
@@ -170,6 +172,16 @@ const Hypotheses::Hypothesis* Hypotheses::own() const {
 const Hypotheses::Hypothesis& Hypotheses::leader() const {
   const Hypothesis* mine = own();
   return mine != nullptr ? *mine : all_.front();
+}
+
+Matrix3d Hypotheses::covariance_about(const Pose2& pose) const {
+  Matrix3d sum = Matrix3d::Zero();
+  for (const Hypothesis& hypothesis : all_) {
+    const PoseWithCovariance& at = hypothesis.tracker.estimate();
+    const Vector3d apart = difference(pose, at.pose);
+    sum += hypothesis.weight * (at.covariance + apart * apart.transpose());
+  }
+  return sum;
 }
 
 bool Hypotheses::is_decided(const HypothesesOptions& options) const {

@@ -113,6 +113,9 @@ class Hypotheses {
   /// The one by dead reckoning while it may be the true one, else the most plausible; there is one
   /// unless `empty`.
   const Hypothesis& leader() const;
+  /// Of the true pose about this one, over (x, y, theta), whichever hypothesis is right; there is
+  /// one unless `empty`.
+  Matrix3d covariance_about(const Pose2& pose) const;
   /// Whether the most plausible may be believed.
   bool is_decided(const HypothesesOptions& options) const;
   /// The most plausible first.
@@ -123,6 +126,7 @@ class Hypotheses {
   struct Witness {
     double log_likelihood = 0.0;
     double share_of_news = 0.0;  // of it, for correlated beams say the same
+    bool sees = false;           // returns enough to say something
   };
 
   Witness take_in(Hypothesis& hypothesis, const HypothesesTurn& turn,

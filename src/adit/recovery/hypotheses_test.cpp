@@ -119,6 +119,38 @@ TEST_F(HypothesesTest, ThePoseByDeadReckoningLeadsUntilAnotherIsBelieved) {
   EXPECT_FALSE(hypotheses.all().front().is_own);
 }
 
+TEST_F(HypothesesTest, WhichIsRightIsPartOfTheCovariance) {
+  scanner.max_range_m = 7.0;  // sees no niche: one is as likely as the other
+  Hypotheses hypotheses;
+  hypotheses.add(near({3.0, 2.0, 0.0}), options);
+  hypotheses.add(near({43.0, 2.0, 0.0}), options);
+  drive(hypotheses, {3.5, 2.0, 0.0}, 0.5);
+  const Pose2 first = hypotheses.all().front().tracker.estimate().pose;
+  const Pose2 second = hypotheses.all().back().tracker.estimate().pose;
+  const double weight = hypotheses.all().back().weight;
+  ASSERT_GT(weight, 0.1);
+  const Matrix3d covariance = hypotheses.covariance_about(first);
+  EXPECT_NEAR(covariance(0, 0), weight * std::pow(second.x - first.x, 2), 0.1);
+  EXPECT_LT(covariance(1, 1), 0.01);
+}
+
+TEST_F(HypothesesTest, ABlindScanLeavesTheNewsToTheNext) {
+  Hypotheses seeing, blinded;
+  for (Hypotheses* hypotheses : {&seeing, &blinded}) {
+    hypotheses->add(near({46.0, 6.0, 0.0}), options);
+    hypotheses->add(near({6.0, 6.0, 0.0}), options);
+  }
+  const double range_m = scanner.max_range_m;
+  scanner.max_range_m = 0.5;
+  drive(blinded, {46.0, 6.0, 0.0}, 0.0);
+  scanner.max_range_m = range_m;
+  drive(seeing, {46.0, 6.0, 0.0}, 0.0);
+  drive(blinded, {46.0, 6.0, 0.0}, 0.0);
+  ASSERT_EQ(seeing.size(), blinded.size());
+  EXPECT_NEAR(seeing.all().front().weight, blinded.all().front().weight, 1e-6);
+  EXPECT_GT(seeing.all().front().weight, 0.9);
+}
+
 // The plan may be wrong here, and a place elsewhere look more like what is seen.
 TEST_F(HypothesesTest, NoneIsBelievedWhileThePoseByDeadReckoningExplainsTheScans) {
   own.start(near({6.0, 6.0, 0.0}));

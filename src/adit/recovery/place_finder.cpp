@@ -13,7 +13,8 @@ void PlaceFinder::begin(const RelocationQuery& query, const PlaceFinderOptions& 
     return relocator.locate({scan, scanner, map_error, motion, within}, options.relocation,
                             options.likelihood, options.refinement, options.status);
   };
-  result_ = std::async(std::launch::async, search);
+  // Where the system has no thread left, the search runs when its answer is taken.
+  result_ = std::async(std::launch::async | std::launch::deferred, search);
 }
 
 void PlaceFinder::wait_and_drop() {
