@@ -38,6 +38,7 @@ struct LocalizeArguments {
   std::vector<double> moved;         ///< since then, one sigma: m, degrees
   std::string level;                 ///< of a plan with levels
   std::optional<int> threads;
+  std::string index;  ///< a file; empty: none
   std::string config;
   std::string output = "adit-localize";
   std::string estimator = "full";
@@ -47,6 +48,7 @@ struct LocateArguments {
   std::string map;
   std::string scan;  ///< LOG:INDEX or LOG:all
   std::string config;
+  std::string index;           ///< a file; empty: none
   std::string output;          ///< a picture
   std::optional<int> threads;  ///< none: one searches, all cores make the index
   bool json = false;

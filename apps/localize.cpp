@@ -59,23 +59,28 @@ Result<RunMap> make_map(const Inputs& inputs, const Start& start,
   const auto named = level_of(inputs.plans, start);
   if (!named) return tl::unexpected(named.error());
   const IndexSettings index{configuration.localizer.places,
-                            threads_or_cores(arguments.threads.value_or(0))};
+                            threads_or_cores(arguments.threads.value_or(0)), arguments.index};
   std::optional<std::size_t> level = *named;
   RunMap run;
   if (!level) {
     const auto levels = prepare_levels(inputs.plans, configuration.map, index);
-    level = find_level(inputs.log, levels, configuration.localizer, kScansForLevel);
+    if (!levels) return tl::unexpected(levels.error());
+    level = find_level(inputs.log, *levels, configuration.localizer, kScansForLevel);
     if (!level) {
       return fail("no scan says on which level it is; name one of " + names_of(inputs.plans) +
                       " with --level",
                   arguments.log);
     }
-    run.places = levels[*level].places;
+    run.places = (*levels)[*level].places;
   }
   const PlanLevel& plan = inputs.plans[*level];
   run.level = plan.name;
   run.map = LineMap::build(plan.plan.segments, configuration.map, &run.cleaning);
-  if (start.beginning.is_anywhere && !run.places) run.places = index_of(run.map, index, plan.name);
+  if (start.beginning.is_anywhere && !run.places) {
+    auto places = index_of(run.map, index, plan.name);
+    if (!places) return tl::unexpected(places.error());
+    run.places = std::move(*places);
+  }
   return run;
 }
 

@@ -112,13 +112,14 @@ int run_locate(const LocateArguments& arguments) {
   if (!inputs) return report(inputs.error());
   const LogSettings settings = settle(inputs->configuration, inputs->log);
   const LocalizerSettings& values = settings.configuration.localizer;
-  const std::vector<MineLevel> levels =
-      prepare_levels(inputs->plans, settings.configuration.map,
-                     {values.places, threads_or_cores(arguments.threads.value_or(0))});
-  const MineAnswer answer = locate_all(*inputs, levels, values, arguments);
+  const auto levels = prepare_levels(
+      inputs->plans, settings.configuration.map,
+      {values.places, threads_or_cores(arguments.threads.value_or(0)), arguments.index});
+  if (!levels) return report(levels.error());
+  const MineAnswer answer = locate_all(*inputs, *levels, values, arguments);
   if (arguments.output.empty()) return kDone;
   const LaserScan& scan = inputs->log.scans[inputs->scans.first].scan;
-  if (const auto drawn = draw(arguments.output, answer, scan, levels); !drawn) {
+  if (const auto drawn = draw(arguments.output, answer, scan, *levels); !drawn) {
     return report(drawn.error());
   }
   fmt::print(stderr, "adit: wrote {}\n", arguments.output);

@@ -59,6 +59,13 @@ void add_threads(CLI::App* command, std::optional<int>& threads, const char* tex
   command->add_option("--threads", threads, text)->check(CLI::Range(1, 256));
 }
 
+void add_index(CLI::App* command, std::string& file) {
+  command->add_option(
+      "--index", file,
+      "file that keeps what is looked up in the plan from run to run: read where it "
+      "is of this plan, else made and written");
+}
+
 void add_localize(CLI::App& app, adit::LocalizeArguments& args, Action& action) {
   CLI::App* command =
       app.add_subcommand("localize",
@@ -81,6 +88,7 @@ void add_localize(CLI::App& app, adit::LocalizeArguments& args, Action& action) 
   command->add_option("--level", args.level,
                       "the level that the run is on, where the plan has several");
   add_threads(command, args.threads, "threads that look at the plan (default: all cores)");
+  add_index(command, args.index);
   command->add_option("--config", args.config, "TOML file; see 'adit config --reference'");
   command->add_option("-o,--output", args.output, "folder for the results")->capture_default_str();
   command
@@ -104,6 +112,7 @@ void add_locate(CLI::App& app, adit::LocateArguments& args, Action& action) {
   add_threads(command, args.threads,
               "threads that look for scans, each for one (default: 1, and all cores for what is "
               "done once for the plan); the answers are the same");
+  add_index(command, args.index);
   command->callback([&] { action = [&] { return run_locate(args); }; });
 }
 

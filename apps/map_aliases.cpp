@@ -60,14 +60,15 @@ int run_map_aliases(const AliasesArguments& arguments) {
 
   const int threads = threads_or_cores(arguments.threads.value_or(0));
   const LineMap map = LineMap::build(inputs->plan.segments, inputs->configuration.values.map);
-  const auto index = index_of(map, {settings.places, threads}, "");
-  const Openings openings = openings_of(map, *index, arguments.pitch, OpeningsOptions{});
+  const auto index = index_of(map, {settings.places, threads, {}}, "");
+  if (!index) return report(index.error());
+  const Openings openings = openings_of(map, **index, arguments.pitch, OpeningsOptions{});
   if (openings.places.empty()) {
     return report({"no opening is wide enough for a machine", arguments.plan});
   }
   const AliasOptions options;
   const AliasSurvey survey =
-      AliasSurveyor(map, *index, *scanner, settings).survey(openings.places, threads, options);
+      AliasSurveyor(map, **index, *scanner, settings).survey(openings.places, threads, options);
   if (!arguments.output.empty()) {
     const auto drawn = draw(arguments.output, map, survey);
     if (!drawn) return report(drawn.error());

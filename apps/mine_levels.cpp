@@ -3,30 +3,84 @@
 #include <fmt/core.h>
 
 #include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <system_error>
 #include <utility>
+
+#include "adit/relocation/place_file.hpp"
 
 namespace adit {
 
-std::shared_ptr<const PlaceIndex> index_of(const LineMap& map, const IndexSettings& settings,
-                                           const std::string& level) {
+namespace {
+
+std::string file_of(const IndexSettings& settings, const std::string& level) {
+  return settings.file.empty() || level.empty() ? settings.file : settings.file + "." + level;
+}
+
+/// None where there is no such file yet, or one of another plan.
+Result<std::optional<PlaceIndex>> read_index(const std::string& file, const LineMap& map,
+                                             const PlaceIndexOptions& options) {
+  if (file.empty() || !std::filesystem::exists(file)) return std::optional<PlaceIndex>();
+  std::ifstream in(file, std::ios::binary);
+  if (!in) return fail("cannot be read", file);
+  auto read = read_places(map, options, in);
+  if (!read) return fail(read.error().message, file);
+  if (!*read) {
+    fmt::print(stderr, "adit: {}: of another plan or other options, made anew\n", file);
+  }
+  return read;
+}
+
+/// Under another name first, so that nobody reads half of it.
+Result<void> write_index(const std::string& file, const PlaceIndex& index, const LineMap& map,
+                         const PlaceIndexOptions& options) {
+  const std::string part = file + ".part";
+  std::ofstream out(part, std::ios::binary);
+  if (const auto written = write_places(index, map, options, out); !written) {
+    return fail(written.error().message, part);
+  }
+  out.close();
+  std::error_code error;
+  std::filesystem::rename(part, file, error);
+  if (error) return fail(error.message(), file);
+  return {};
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const PlaceIndex>> index_of(const LineMap& map,
+                                                   const IndexSettings& settings,
+                                                   const std::string& level) {
   using Clock = std::chrono::steady_clock;
   const auto start = Clock::now();
-  auto index =
-      std::make_shared<const PlaceIndex>(PlaceIndex::build(map, settings.places, settings.threads));
+  const std::string file = file_of(settings, level);
+  auto read = read_index(file, map, settings.places);
+  if (!read) return tl::unexpected(read.error());
+  const bool is_read = read->has_value();
+  auto index = std::make_shared<const PlaceIndex>(
+      is_read ? std::move(**read) : PlaceIndex::build(map, settings.places, settings.threads));
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  fmt::print(stderr, "adit: {}index of {} places, {:.2f} m apart, {:.1f} MB, built in {:.2f} s\n",
+  fmt::print(stderr, "adit: {}index of {} places, {:.2f} m apart, {:.1f} MB, {} in {:.2f} s\n",
              level.empty() ? "" : "level " + level + ": ", index->size(), index->pitch_m(),
-             1e-6 * static_cast<double>(index->memory()), seconds);
+             1e-6 * static_cast<double>(index->memory()), is_read ? "read" : "built", seconds);
+  if (!file.empty() && !is_read) {
+    const auto written = write_index(file, *index, map, settings.places);
+    if (!written) return tl::unexpected(written.error());
+  }
   return index;
 }
 
-std::vector<MineLevel> prepare_levels(const std::vector<PlanLevel>& plans,
-                                      const LineMapOptions& cleaning,
-                                      const IndexSettings& settings) {
+Result<std::vector<MineLevel>> prepare_levels(const std::vector<PlanLevel>& plans,
+                                              const LineMapOptions& cleaning,
+                                              const IndexSettings& settings) {
   std::vector<MineLevel> levels;
   for (const PlanLevel& plan : plans) {
     MineLevel level{plan.name, LineMap::build(plan.plan.segments, cleaning), nullptr};
-    level.places = index_of(level.map, settings, level.name);
+    auto places = index_of(level.map, settings, level.name);
+    if (!places) return tl::unexpected(places.error());
+    level.places = std::move(*places);
     levels.push_back(std::move(level));
   }
   return levels;

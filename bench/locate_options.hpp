@@ -21,6 +21,8 @@ struct LocateOptions {
   int threads = 1;
   int side = 20;
   int worst = 0;
+  int oracle = 0;
+  std::string index;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -38,6 +40,9 @@ struct LocateOptions {
     field("side", self.side, "pillars along each side of a panel");
     field("worst", self.worst,
           "lists so many of the scans that are not ok and right; above `count`, all");
+    field("oracle", self.oracle,
+          "of so many of the scans brute force says whether they allow one answer: seconds a scan");
+    field("index", self.index, "file to which the index is saved, and from which it is read");
   }
 };
 

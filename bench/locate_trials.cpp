@@ -8,9 +8,13 @@
 
 #include <algorithm>
 #include <ctime>
+#include <fstream>
 #include <map>
 
+#include "adit/relocation/place_file.hpp"
 #include "adit/relocation/relocator.hpp"
+#include "adit/relocation/share_out.hpp"
+#include "locate_oracle.hpp"
 #include "locate_scene.hpp"
 
 namespace adit {
@@ -59,6 +63,12 @@ struct Tally {
     return seconds[static_cast<std::size_t>(part * static_cast<double>(seconds.size() - 1))];
   }
 
+  void print_shares(const char* what) const {
+    const auto percent = [&](int count) { return 100.0 * count / std::max(1, scans); };
+    fmt::print("{} {}  first {:.1f} %  listed {:.1f} %  ok {:.1f} %\n", what, scans, percent(first),
+               percent(listed), percent(ok));
+  }
+
   void print() {
     const auto percent = [&](int count) { return 100.0 * count / std::max(1, scans); };
     fmt::print(
@@ -81,10 +91,75 @@ double likelihood_at_truth(const LocateScene& scene, const LocateCase& one,
   return likelihood.at(scene.map, *one.truth * one.scan.vehicle_from_laser, kDoubt);
 }
 
+/// The figures of those scans that allow one answer, by two measures: poses that differ by the
+/// scanner's noise alone, and by what is stated of the plan as well.
+class OracleTally {
+ public:
+  OracleTally(const LocateScene& scene, const LocateOptions& options)
+      : scene_(scene), oracle_(scene.map, scene.scanner, inside(scene), cores()) {
+    fmt::print("oracle places {}  of {} scans\n", oracle_.size(), options.oracle);
+  }
+
+  void add(const LocateCase& one, const RelocationResult& result) {
+    if (!one.truth) return;
+    const std::clock_t start = std::clock();
+    oracle_.rate(one.scan);
+    MapError drawn = scene_.map_error;
+    drawn.offset_sigma_m = drawn.roughness_sigma_m = 0.0;
+    const OracleAnswer by_noise = oracle_.judge(one.scan, *one.truth, drawn);
+    const OracleAnswer by_plan = oracle_.judge(one.scan, *one.truth, scene_.map_error);
+    const double elapsed = cpu_seconds_since(start);
+    all_.add(result, one.truth, elapsed);
+    if (by_noise.one_answer) by_noise_.add(result, one.truth, elapsed);
+    if (by_plan.one_answer) by_plan_.add(result, one.truth, elapsed);
+    found_ += by_noise.found_truth && by_plan.found_truth;
+    print_miss(by_noise, by_plan, result, one.truth);
+  }
+
+  void print() {
+    fmt::print("oracle examined {}  found the true pose itself {}  cpu_s median {:.1f}\n",
+               all_.scans, found_, all_.quantile(0.5));
+    all_.print_shares("examined");
+    by_noise_.print_shares("one_answer_by_noise");
+    by_plan_.print_shares("one_answer_by_stated_error");
+  }
+
+ private:
+  static std::vector<Vector2d> inside(const LocateScene& scene) {
+    std::vector<Vector2d> places;
+    for (const LocateCase& one : scene.cases) {
+      if (one.truth) places.push_back(one.truth->translation());
+    }
+    return places;
+  }
+  static int cores() { return threads_or_cores(0); }
+
+  void print_miss(const OracleAnswer& by_noise, const OracleAnswer& by_plan,
+                  const RelocationResult& result, const std::optional<Pose2>& truth) const {
+    const bool right = !result.poses.empty() && is_right(result.poses.front(), truth);
+    if (right && result.verdict == Status::ok) return;
+    fmt::print(
+        "scan {} {} {}  gap by noise {:.1f}  by stated error {:.1f}  rival {:.2f} {:.2f} {:.2f}\n",
+        all_.scans - 1, right ? "right" : "wrong", to_string(result.verdict), by_noise.gap,
+        by_plan.gap, by_plan.rival.x, by_plan.rival.y, by_plan.rival.theta);
+  }
+
+  const LocateScene& scene_;
+  PoseOracle oracle_;
+  Tally all_;
+  Tally by_noise_;
+  Tally by_plan_;
+  int found_ = 0;
+};
+
 void describe(std::size_t number, const LocateScene& scene, const RelocationResult& result) {
   const std::optional<Pose2>& truth = scene.cases[number].truth;
-  fmt::print("scan {} {}  map error {:.3f} m", number, to_string(result.verdict),
-             result.map_error.sigma_m());
+  const BeamShares& shares = result.shares;
+  fmt::print(
+      "scan {} {}  map error {:.3f} m  gap {:.1f}  on wall {:.3f} before {:.3f} through {:.3f} "
+      "unmapped {:.3f} missing {:.3f}",
+      number, to_string(result.verdict), result.map_error.sigma_m(), result.gap, shares.on_wall,
+      shares.before, shares.through, shares.unmapped, shares.missing);
   if (truth) {
     fmt::print("  truth {:.2f} {:.2f} {:.2f} log {:.1f}", truth->x, truth->y, truth->theta,
                likelihood_at_truth(scene, scene.cases[number], result.map_error));
@@ -101,6 +176,23 @@ void describe(std::size_t number, const LocateScene& scene, const RelocationResu
   }
 }
 
+/// Read from the file where it holds one of this plan, else built and saved there.
+PlaceIndex index_of(const LineMap& map, const LocateOptions& options) {
+  if (!options.index.empty()) {
+    std::ifstream in(options.index, std::ios::binary);
+    auto read = read_places(map, {}, in);
+    if (read && *read) return std::move(**read);
+  }
+  PlaceIndex index = PlaceIndex::build(map, {}, options.threads);
+  if (!options.index.empty()) {
+    std::ofstream out(options.index, std::ios::binary);
+    if (const auto written = write_places(index, map, {}, out); !written) {
+      fmt::print(stderr, "{}\n", to_string(written.error()));
+    }
+  }
+  return index;
+}
+
 int run(const LocateOptions& options) {
   const auto scene = make_locate_scene(options);
   if (!scene) {
@@ -108,12 +200,14 @@ int run(const LocateOptions& options) {
     return 1;
   }
   std::clock_t start = std::clock();
-  const PlaceIndex index = PlaceIndex::build(scene->map, {}, options.threads);
+  const PlaceIndex index = index_of(scene->map, options);
   fmt::print("plan {}  segments {}  places {}  pitch {:.2f} m  index_cpu {:.2f} s  {:.1f} MB\n",
              options.plan, scene->map.walls().size(), index.size(), index.pitch_m(),
              cpu_seconds_since(start), 1e-6 * static_cast<double>(index.memory()));
   Relocator relocator(scene->map, index);
   Tally tally;
+  std::optional<OracleTally> oracle;
+  if (options.oracle > 0) oracle.emplace(*scene, options);
   int shown = 0;
   for (std::size_t i = 0; i < scene->cases.size(); ++i) {
     const LocateCase& one = scene->cases[i];
@@ -121,6 +215,7 @@ int run(const LocateOptions& options) {
     const RelocationResult& result =
         relocator.locate({one.scan, scene->scanner, scene->map_error, {}, {}});
     tally.add(result, one.truth, cpu_seconds_since(start));
+    if (static_cast<int>(i) < options.oracle) oracle->add(one, result);
     const bool right = !result.poses.empty() && is_right(result.poses.front(), one.truth);
     const bool sure = result.verdict == Status::ok || result.verdict == Status::degraded;
     const bool asked = (!(right && sure) || options.worst > options.count) && shown < options.worst;
@@ -128,6 +223,7 @@ int run(const LocateOptions& options) {
     if (asked || (sure && !right)) describe(i, *scene, result);
   }
   tally.print();
+  if (oracle) oracle->print();
   return 0;
 }
 

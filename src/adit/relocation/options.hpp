@@ -38,7 +38,8 @@ struct LikelihoodOptions {
   double back_ratio = 0.10;
   double long_ratio = 0.05;
   double dropout_ratio = 0.05;
-  double piece_m = 1.5;
+  double gone_ratio = 0.005;
+  double trust = 0.2;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -52,8 +53,13 @@ struct LikelihoodOptions {
           "share of the beams that meet something else behind the map's wall, not before it");
     field("dropout_ratio", self.dropout_ratio,
           "probability that a beam brings no return from a wall in reach");
-    field("piece_m", self.piece_m,
-          "beams on so much of a wall share its error: together they say little more than one (m)");
+    field(
+        "gone_ratio", self.gone_ratio,
+        "probability that the next beam after one on a wall of the map passes where the map has a "
+        "wall that is gone, and meets the one beyond");
+    field("trust", self.trust,
+          "what counts of a log likelihood: what stands before the walls, and how they differ from "
+          "the plan, is shared by more beams than the model knows");
   }
 };
 
@@ -62,23 +68,22 @@ struct RelocationOptions {
   double shorter_cap = 10.0;
   double longer_cap = 14.0;
   int first_bins = 16;
-  double rated_share = 0.2;
+  double rated_share = 0.15;
   int fewest_rated = 8000;
-  int compared = 8000;
+  int compared = 6000;
   int moved = 3000;
   int moved_again = 400;
-  int first_beams = 40;
+  int first_beams = 30;
   int quick_beams = 100;
-  int finished = 120;
-  int all_beams = 400;
   double slack_ratio = 0.3;
-  int candidates = 60;
-  int agreeing = 12;
-  int coarsely_refined = 30;
-  int again_refined = 20;
+  int fewest_candidates = 30;
+  int candidates = 250;
+  double agreement_per_step = 0.07;
+  double score_slack = 0.15;
+  int rated_again = 100;
+  int fitted_again = 32;
   int refined = 16;
   int listed = 20;
-  double doubt_m = 0.1;
   double doubt_rad = 0.015;
   double start_m = 0.2;
   double basin_m = 1.0;
@@ -91,8 +96,10 @@ struct RelocationOptions {
   double rival_weight = 0.02;
   double apart_m = 1.0;
   double apart_rad = radians(5.0);
-  double sure_evidence_ratio = 0.68;
-  double sure_evidence_per_behind = 8.0;
+  double sure_gap = 9.0;
+  double sure_evidence_ratio = 0.9;
+  double sure_evidence_per_gap = 0.012;
+  double sure_evidence_per_through = 5.0;
   double sure_evidence_per_error = 0.15;
 
   template <class Self, class Field>
@@ -113,22 +120,23 @@ struct RelocationOptions {
     field("moved_again", self.moved_again, "and the best of these moved on");
     field("first_beams", self.first_beams, "first with so many beams");
     field("quick_beams", self.quick_beams, "then with so many");
-    field("finished", self.finished, "the best of those once more");
-    field("all_beams", self.all_beams, "with so many");
     field("slack_ratio", self.slack_ratio,
           "walls may be nearer or farther from a place of the index by this part of its pitch");
-    field("candidates", self.candidates, "of so many of those the likelihood is looked at");
-    field("agreeing", self.agreeing,
-          "so many of them, those that agree most with the walls, are fitted however unlikely");
-    field("coarsely_refined", self.coarsely_refined, "so many of them are fitted with some beams");
-    field("again_refined", self.again_refined, "so many of those once more");
+    field("fewest_candidates", self.fewest_candidates,
+          "so many of those are fitted with some of the beams ...");
+    field("candidates", self.candidates, "... and up to so many ...");
+    field("score_slack", self.score_slack,
+          "... that are no worse than the best by this: share of the returns that agree ...");
+    field(
+        "agreement_per_step", self.agreement_per_step,
+        "... where so much agreement makes up for one step of the range code, the bearings' mean");
+    field("rated_again", self.rated_again,
+          "of so many fits the likelihood is looked at, each with the error of the plan that suits "
+          "it best");
+    field("fitted_again", self.fitted_again, "so many of those are fitted once more");
     field("refined", self.refined, "and so many of those with all points");
     field("listed", self.listed, "no more poses than this are given as answers");
-    field(
-        "doubt_m", self.doubt_m,
-        "likelihoods of poses from the search allow for walls that are so much nearer or farther, "
-        "one sigma (m)");
-    field("start_m", self.start_m, "how far off such a pose is, one sigma (m)");
+    field("start_m", self.start_m, "how far off a pose from the search is, one sigma (m)");
     field("doubt_rad", self.doubt_rad, "the same for its heading (rad)");
     field("basin_m", self.basin_m,
           "what the scan leaves open is no wider than this, one sigma (m)");
@@ -145,11 +153,16 @@ struct RelocationOptions {
           "the best pose stands alone where all others together weigh less than this");
     field("apart_m", self.apart_m, "another pose is one farther than this (m) ...");
     field("apart_rad", self.apart_rad, "... or turned by more than this (rad)");
+    field("sure_gap", self.sure_gap,
+          "a pose is sure only where every other one is less likely by this (log) ...");
     field("sure_evidence_ratio", self.sure_evidence_ratio,
-          "a pose is sure only where it explains this much of what a scan of nothing but the map's "
-          "walls would ...");
-    field("sure_evidence_per_behind", self.sure_evidence_per_behind,
-          "... and so much more per share of the returns from behind the map's walls ...");
+          "... and where it explains this much of what a scan of nothing but the map's walls "
+          "would ...");
+    field("sure_evidence_per_gap", self.sure_evidence_per_gap,
+          "... less by so much per unit by which the others are less likely ...");
+    field("sure_evidence_per_through", self.sure_evidence_per_through,
+          "... more by so much per share of the returns that come from behind the map's walls or "
+          "from where it has none ...");
     field("sure_evidence_per_error", self.sure_evidence_per_error,
           "... and by so much more where the plan errs as much as stated: a larger error lets more "
           "poses agree by chance");

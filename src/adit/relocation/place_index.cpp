@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "adit/relocation/share_out.hpp"
 #include "adit/visibility/visibility.hpp"
@@ -37,7 +38,7 @@ class PlaceIndex::RowBuilder {
 
   void operator()(std::size_t row) {
     for (int column = 0; column < columns_; ++column) {
-      const Cell cell{column, static_cast<std::int32_t>(row)};
+      const PlaceArrays::Cell cell{column, static_cast<std::int32_t>(row)};
       const Vector2d place = origin_ + pitch_m_ * Vector2d(cell.column, cell.row);
       if (!is_clear(place)) continue;
       look_around(place);
@@ -78,25 +79,31 @@ class PlaceIndex::RowBuilder {
 };
 
 PlaceIndex PlaceIndex::build(const LineMap& map, const PlaceIndexOptions& options, int threads) {
-  PlaceIndex index;
-  index.pitch_m_ = options.pitch_m;
-  if (map.empty()) return index;
+  PlaceArrays arrays;
+  arrays.pitch_m = options.pitch_m;
+  if (map.empty()) return PlaceIndex(map, std::move(arrays));
   const Vector2d size = map.bounds().size();
-  index.pitch_m_ = pitch_for(size.x() * size.y(), options);
-  const double pitch = index.pitch_m_;
-  index.origin_ = map.bounds().min + Vector2d::Constant(0.5 * pitch);
+  arrays.pitch_m = pitch_for(size.x() * size.y(), options);
+  const double pitch = arrays.pitch_m;
+  const Vector2d origin = map.bounds().min + Vector2d::Constant(0.5 * pitch);
+  arrays.origin_x = origin.x();
+  arrays.origin_y = origin.y();
   const auto columns = static_cast<int>(size.x() / pitch) + 1;
   const auto row_count = static_cast<std::size_t>(size.y() / pitch) + 1;
   std::vector<Row> rows(row_count);
   share_out(row_count, threads,
-            [&] { return RowBuilder(map, options, index.origin_, pitch, columns, rows); });
-  for (const Row& row : rows) {
-    index.cells_.insert(index.cells_.end(), row.cells.begin(), row.cells.end());
-    index.codes_.insert(index.codes_.end(), row.codes.begin(), row.codes.end());
+            [&] { return RowBuilder(map, options, origin, pitch, columns, rows); });
+  for (Row& row : rows) {
+    arrays.cells.insert(arrays.cells.end(), row.cells.begin(), row.cells.end());
+    arrays.codes.insert(arrays.codes.end(), row.codes.begin(), row.codes.end());
+    row = Row{};
   }
-  index.sort_ranges();
-  index.walls_ = WallField(map);
-  return index;
+  return PlaceIndex(map, std::move(arrays));
+}
+
+PlaceIndex::PlaceIndex(const LineMap& map, PlaceArrays arrays)
+    : arrays_(std::move(arrays)), walls_(map) {
+  sort_ranges();
 }
 
 void PlaceIndex::sort_ranges() {
@@ -104,7 +111,7 @@ void PlaceIndex::sort_ranges() {
   sorted_.resize((size() + kBlock - 1) / kBlock);
   for (std::size_t place = 0; place < size(); ++place) {
     SortedRanges& block = sorted_[place / kBlock];
-    RangeBands bands = codes_[place];
+    RangeBands bands = arrays_.codes[place];
     std::sort(bands.farthest.begin(), bands.farthest.end(), std::greater<>());
     std::sort(bands.nearest.begin(), bands.nearest.end());
     for (std::size_t rank = 0; rank < kRanks; ++rank) {
@@ -115,8 +122,9 @@ void PlaceIndex::sort_ranges() {
 }
 
 std::size_t PlaceIndex::memory() const {
-  return cells_.capacity() * sizeof(Cell) + codes_.capacity() * sizeof(RangeBands) +
-         sorted_.capacity() * sizeof(SortedRanges) + walls_.memory();
+  return arrays_.cells.capacity() * sizeof(PlaceArrays::Cell) +
+         arrays_.codes.capacity() * sizeof(RangeBands) + sorted_.capacity() * sizeof(SortedRanges) +
+         walls_.memory();
 }
 
 }  // namespace adit

@@ -13,6 +13,20 @@
 
 namespace adit {
 
+/// What an index is made of. Places follow each other row by row, and column by column within a
+/// row.
+struct PlaceArrays {
+  struct Cell {
+    std::int32_t column = 0;
+    std::int32_t row = 0;
+  };
+  double origin_x = 0.0;  // m
+  double origin_y = 0.0;
+  double pitch_m = 1.0;
+  std::vector<Cell> cells;
+  std::vector<RangeBands> codes;
+};
+
 /// What is in sight from the places of a plan where a scanner may stand.
 ///
 /// Places lie on a square lattice; each keeps its ranges as two bytes a bearing bin (map axes) and
@@ -21,20 +35,24 @@ namespace adit {
 class PlaceIndex {
  public:
   PlaceIndex() = default;
+  /// Of arrays that were made of this map.
+  PlaceIndex(const LineMap& map, PlaceArrays arrays);
   static PlaceIndex build(const LineMap& map, const PlaceIndexOptions& options = {},
                           int threads = 1);
 
-  std::size_t size() const { return cells_.size(); }
-  bool empty() const { return cells_.empty(); }
-  double pitch_m() const { return pitch_m_; }
+  std::size_t size() const { return arrays_.cells.size(); }
+  bool empty() const { return arrays_.cells.empty(); }
+  double pitch_m() const { return arrays_.pitch_m; }
+  const PlaceArrays& arrays() const { return arrays_; }
   /// Bytes that it holds.
   std::size_t memory() const;
 
   Vector2d position(std::size_t place) const {
-    const Cell& cell = cells_[place];
-    return origin_ + pitch_m_ * Vector2d(cell.column, cell.row);
+    const PlaceArrays::Cell& cell = arrays_.cells[place];
+    return Vector2d(arrays_.origin_x, arrays_.origin_y) +
+           arrays_.pitch_m * Vector2d(cell.column, cell.row);
   }
-  const RangeBands& codes(std::size_t place) const { return codes_[place]; }
+  const RangeBands& codes(std::size_t place) const { return arrays_.codes[place]; }
 
   /// The ranges of so many places, sorted: what does not depend on the heading. The same rank of
   /// all places lies together.
@@ -50,22 +68,14 @@ class PlaceIndex {
   const WallField& walls() const { return walls_; }
 
  private:
-  /// Places follow each other row by row, and column by column within a row.
-  struct Cell {
-    std::int32_t column = 0;
-    std::int32_t row = 0;
-  };
   struct Row {
-    std::vector<Cell> cells;
+    std::vector<PlaceArrays::Cell> cells;
     std::vector<RangeBands> codes;
   };
   class RowBuilder;
   void sort_ranges();
 
-  Vector2d origin_ = Vector2d::Zero();
-  double pitch_m_ = 1.0;
-  std::vector<Cell> cells_;
-  std::vector<RangeBands> codes_;
+  PlaceArrays arrays_;
   std::vector<SortedRanges> sorted_;
   WallField walls_;
 };

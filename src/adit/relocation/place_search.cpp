@@ -7,6 +7,15 @@
 #include <cstring>
 #include <tuple>
 
+// Where the linker can choose, the loops over bytes exist for machines with wider vectors as well;
+// integers throughout, so that all give the same.
+#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
+#define ADIT_WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define ADIT_WIDE
+#endif
+
 namespace adit {
 namespace {
 
@@ -62,9 +71,22 @@ Caps caps_of(const RelocationOptions& options) {
 
 using ShiftCosts = std::array<std::uint16_t, kRangeBins>;
 
+/// What the bins say against a place at its best heading.
+ADIT_WIDE std::uint8_t least_cost(const RangeBands& bands, const ScanCodes& scan,
+                                  const std::vector<std::size_t>& bins, Caps caps) {
+  const DoubledBands plan(bands, scan.farthest);
+  std::array<std::uint8_t, kRangeBins> costs{};
+  for (const std::size_t b : bins) add_bin(plan, b, scan, caps, costs);
+  std::uint8_t least = costs[0];
+  for (const std::uint8_t cost : costs) least = least < cost ? least : cost;
+  return least;
+}
+
 /// What all bins say against each heading of a place.
-ShiftCosts compare_all(const DoubledBands& plan, const ScanCodes& scan, Caps caps) {
-  ShiftCosts sums{};
+ADIT_WIDE void compare_all(const RangeBands& bands, const ScanCodes& scan, Caps caps,
+                           ShiftCosts& sums) {
+  const DoubledBands plan(bands, scan.farthest);
+  sums.fill(0);
   for (std::size_t first = 0; first < kRangeBins; first += kMostFirstBins) {
     std::array<std::uint8_t, kRangeBins> costs{};
     for (std::size_t b = first; b < first + kMostFirstBins; ++b) {
@@ -74,17 +96,17 @@ ShiftCosts compare_all(const DoubledBands& plan, const ScanCodes& scan, Caps cap
       sums[s] = static_cast<std::uint16_t>(sums[s] + costs[s]);
     }
   }
-  return sums;
 }
 
 using BlockCosts = std::array<std::uint8_t, PlaceIndex::kBlock>;
 
 /// What a scan's sorted ranges say against the places of a block.
-BlockCosts rate_block(const PlaceIndex::SortedRanges& block, std::span<const std::uint8_t> sorted,
-                      std::uint8_t in_sight) {
+ADIT_WIDE void rate_block(const PlaceIndex::SortedRanges& block,
+                          std::span<const std::uint8_t> sorted, std::uint8_t in_sight,
+                          BlockCosts& costs) {
   constexpr std::size_t kStep = kRangeBins / PlaceIndex::kRanks;
   constexpr std::uint8_t kCap = 7;  // 32 times this fits a byte
-  BlockCosts costs{};
+  costs.fill(0);
   for (std::size_t rank = 0; rank * kStep < sorted.size(); ++rank) {
     const std::uint8_t longest = sorted[sorted.size() - 1 - rank * kStep];
     const std::uint8_t shortest = sorted[rank * kStep];
@@ -100,13 +122,33 @@ BlockCosts rate_block(const PlaceIndex::SortedRanges& block, std::span<const std
                                            (shorter < kCap ? shorter : kCap));
     }
   }
-  return costs;
 }
 
-bool agrees_more(const PlaceMatch& a, const PlaceMatch& b) {
+/// A heading of a place at which less speaks against it than at those beside it, in one number that
+/// sorts by cost, place and heading.
+struct Minimum {
+  std::uint16_t cost = 0;
+  std::uint32_t place = 0;
+  std::uint8_t shift = 0;  // bins
+  std::uint8_t part = 0;   // of a bin, from -1/2 on, in 255ths
+
+  std::uint64_t key() const {
+    return std::uint64_t{cost} << 48 | std::uint64_t{place} << 16 | std::uint64_t{shift} << 8 |
+           part;
+  }
+  static Minimum of(std::uint64_t key) {
+    return {static_cast<std::uint16_t>(key >> 48), static_cast<std::uint32_t>(key >> 16),
+            static_cast<std::uint8_t>(key >> 8), static_cast<std::uint8_t>(key)};
+  }
+};
+
+// No sum of costs is higher: all bins at the largest cap both ways.
+constexpr std::size_t kMostCost = kRangeBins * 30 + 1;
+
+bool scores_more(const PlaceMatch& a, const PlaceMatch& b) {
   const Pose2& p = a.map_from_laser;
   const Pose2& q = b.map_from_laser;
-  return std::tie(b.agreement, p.y, p.x, p.theta) < std::tie(a.agreement, q.y, q.x, q.theta);
+  return std::tie(b.score, p.y, p.x, p.theta) < std::tie(a.score, q.y, q.x, q.theta);
 }
 
 /// Numbers that were put in.
@@ -166,26 +208,25 @@ std::span<const PlaceMatch> PlaceSearch::find(const PlaceIndex& index, const Las
   rate_headings(index, codes, options);
   keep_places(count(options.compared));
   compare(index, codes, options);
-  thin_out(count(options.moved), 2.0 * index.pitch_m());
-  const auto take = [](PlaceMatch& match, const QuickFit::Result& moved) {
+  thin_out(index, count(options.moved), 2.0 * index.pitch_m());
+  const auto per_step =
+      static_cast<float>(options.agreement_per_step / static_cast<double>(codes.bins_seen));
+  const auto take = [&](PlaceMatch& match, const QuickFit::Result& moved) {
     match.map_from_laser = moved.map_from_laser;
     match.agreement = moved.agreement;
+    match.score = moved.agreement - per_step * static_cast<float>(match.cost);
   };
   quick_fit_.set_scan(scan, scanner, count(options.first_beams));
   for (PlaceMatch& match : matches_) {
     take(match, quick_fit_.approach(index.walls(), match.map_from_laser));
   }
-  keep_agreeing(count(options.moved_again));
+  keep_best(count(options.moved_again));
   quick_fit_.set_scan(scan, scanner, count(options.quick_beams));
   for (PlaceMatch& match : matches_) {
     take(match, quick_fit_.settle(index.walls(), match.map_from_laser));
   }
-  keep_agreeing(count(options.finished));
-  quick_fit_.set_scan(scan, scanner, count(options.all_beams));
-  for (PlaceMatch& match : matches_) {
-    take(match, quick_fit_.finish(index.walls(), match.map_from_laser));
-  }
-  choose(count(options.candidates));
+  choose(count(options.fewest_candidates), count(options.candidates),
+         static_cast<float>(options.score_slack));
   return found_;
 }
 
@@ -201,8 +242,9 @@ void PlaceSearch::rate_sorted(const PlaceIndex& index, const ScanCodes& scan,
   places_.clear();
   ratings_.clear();
   const auto blocks = index.sorted_ranges();
+  BlockCosts costs;
   for (std::size_t block = 0; block < blocks.size(); ++block) {
-    const BlockCosts costs = rate_block(blocks[block], sorted, scan.farthest);
+    rate_block(blocks[block], sorted, scan.farthest, costs);
     const std::size_t first = block * PlaceIndex::kBlock;
     const std::size_t end = std::min(index.size(), first + PlaceIndex::kBlock);
     for (std::size_t place = first; place < end; ++place) {
@@ -244,74 +286,88 @@ void PlaceSearch::rate_headings(const PlaceIndex& index, const ScanCodes& scan,
   const Caps caps = caps_of(options);
   ratings_.clear();
   for (const std::uint32_t place : places_) {
-    const DoubledBands plan(index.codes(place), scan.farthest);
-    std::array<std::uint8_t, kRangeBins> costs{};
-    for (const std::size_t b : bins_) add_bin(plan, b, scan, caps, costs);
-    std::uint8_t least = costs[0];
-    for (const std::uint8_t cost : costs) least = std::min(least, cost);
-    ratings_.push_back(least);
+    ratings_.push_back(least_cost(index.codes(place), scan, bins_, caps));
   }
 }
 
-/// Every heading of a place that is better than its neighbours becomes a match; the best are kept.
+/// Every heading of a place that is better than its neighbours is a minimum.
 void PlaceSearch::compare(const PlaceIndex& index, const ScanCodes& scan,
                           const RelocationOptions& options) {
   const Caps caps = caps_of(options);
+  minima_.clear();
+  ShiftCosts sums;
   for (const std::uint32_t place : places_) {
-    const DoubledBands plan(index.codes(place), scan.farthest);
-    const ShiftCosts sums = compare_all(plan, scan, caps);
-    const Vector2d position = index.position(place);
+    compare_all(index.codes(place), scan, caps, sums);
     for (std::size_t s = 0; s < kRangeBins; ++s) {
       const std::uint16_t before = sums[(s + kRangeBins - 1) % kRangeBins];
       const std::uint16_t after = sums[(s + 1) % kRangeBins];
-      if (!(sums[s] < before && sums[s] <= after)) continue;
+      if (!((sums[s] < before) & (sums[s] <= after))) continue;
       // To the side of the better neighbour, as far as a parabola has it.
-      const double bend = before + after - 2.0 * sums[s];
-      const double part = bend > 0.0 ? 0.5 * (before - after) / bend : 0.0;
-      const double turn = (static_cast<double>(s) + part) * kRangeBinWidth;
-      matches_.push_back({{position.x(), position.y(), wrap_angle(turn)}, sums[s], 0.0F});
+      const int bend = before + after - 2 * sums[s];
+      const int part = 127 + 127 * (before - after) / std::max(1, bend);
+      const Minimum minimum{sums[s], place, static_cast<std::uint8_t>(s),
+                            static_cast<std::uint8_t>(part)};
+      minima_.push_back(minimum.key());
     }
   }
 }
 
-/// Keeps the cheapest matches, one of each cell and sector.
-void PlaceSearch::thin_out(std::size_t most, double cell_m) {
-  const auto cheaper = [](const PlaceMatch& a, const PlaceMatch& b) {
-    return std::tie(a.cost, a.map_from_laser.y, a.map_from_laser.x, a.map_from_laser.theta) <
-           std::tie(b.cost, b.map_from_laser.y, b.map_from_laser.x, b.map_from_laser.theta);
-  };
-  const std::size_t looked_at = std::min(matches_.size(), 8 * most);
-  const auto end = matches_.begin() + static_cast<std::ptrdiff_t>(looked_at);
-  if (looked_at < matches_.size()) {
-    std::nth_element(matches_.begin(), end, matches_.end(), cheaper);
+/// Sorts the minima by cost, those of the same cost as they are; no more than about so many of the
+/// cheapest are kept.
+void PlaceSearch::sort_minima(std::size_t most) {
+  std::array<std::uint32_t, kMostCost + 1> begins{};
+  for (const std::uint64_t key : minima_) ++begins[Minimum::of(key).cost + std::size_t{1}];
+  std::size_t bound = 0;
+  while (bound + 1 < kMostCost && begins[bound] < most) {
+    begins[bound + 1] += begins[bound];
+    ++bound;
   }
-  matches_.erase(end, matches_.end());
-  std::sort(matches_.begin(), matches_.end(), cheaper);
-  CellSet taken(taken_, looked_at);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < looked_at && kept < most; ++i) {
-    if (taken.insert(cell_of(matches_[i].map_from_laser, cell_m))) matches_[kept++] = matches_[i];
+  sorted_.resize(begins[bound]);
+  for (const std::uint64_t key : minima_) {
+    const std::size_t cost = Minimum::of(key).cost;
+    if (cost < bound) sorted_[begins[cost]++] = key;
   }
-  matches_.resize(kept);
 }
 
-void PlaceSearch::keep_agreeing(std::size_t most) {
+/// The cheapest minima become matches, one of each cell and sector.
+void PlaceSearch::thin_out(const PlaceIndex& index, std::size_t most, double cell_m) {
+  sort_minima(8 * most);
+  CellSet taken(taken_, sorted_.size());
+  for (const std::uint64_t key : sorted_) {
+    if (matches_.size() >= most) break;
+    const Minimum minimum = Minimum::of(key);
+    const Vector2d position = index.position(minimum.place);
+    const double part = (minimum.part - 127.0) / 254.0;
+    const double turn = (static_cast<double>(minimum.shift) + part) * kRangeBinWidth;
+    const Pose2 pose{position.x(), position.y(), wrap_angle(turn)};
+    if (taken.insert(cell_of(pose, cell_m))) matches_.push_back({pose, minimum.cost, 0.0F, 0.0F});
+  }
+}
+
+void PlaceSearch::keep_best(std::size_t most) {
   if (matches_.size() <= most) return;
   std::nth_element(matches_.begin(), matches_.begin() + static_cast<std::ptrdiff_t>(most),
-                   matches_.end(), agrees_more);
+                   matches_.end(), scores_more);
   matches_.resize(most);
 }
 
-/// The best that are left, none near a better one.
-void PlaceSearch::choose(std::size_t most) {
-  std::sort(matches_.begin(), matches_.end(), agrees_more);
+/// The best that are left, no farther behind the first than by `slack`. Of those that are one, the
+/// pose that agrees most with the walls stands for them: what the codes say is of where it began.
+void PlaceSearch::choose(std::size_t fewest, std::size_t most, float slack) {
+  std::sort(matches_.begin(), matches_.end(), scores_more);
   for (const PlaceMatch& match : matches_) {
-    if (found_.size() >= most) break;
-    const bool known = std::any_of(found_.begin(), found_.end(), [&](const PlaceMatch& better) {
+    const auto known = std::find_if(found_.begin(), found_.end(), [&](const PlaceMatch& better) {
       const Vector3d apart = difference(better.map_from_laser, match.map_from_laser);
       return apart.head<2>().norm() < kSameMetres && std::abs(apart.z()) < kSameRadians;
     });
-    if (!known) found_.push_back(match);
+    if (known != found_.end()) {
+      if (known->agreement < match.agreement) known->map_from_laser = match.map_from_laser;
+      known->agreement = std::max(known->agreement, match.agreement);
+      continue;
+    }
+    if (found_.size() >= most) break;
+    if (found_.size() >= fewest && match.score < found_.front().score - slack) break;
+    found_.push_back(match);
   }
 }
 

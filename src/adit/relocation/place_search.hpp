@@ -21,6 +21,7 @@ struct PlaceMatch {
   Pose2 map_from_laser;
   std::uint16_t cost = 0;  ///< steps of the range code, summed over the bins
   float agreement = 0.0F;  ///< share of the returns that lie at a wall
+  float score = 0.0F;      ///< of both; more is better
 };
 
 /// Holds a scan against every place of an index at every heading: first the ranges whatever the
@@ -41,13 +42,16 @@ class PlaceSearch {
   void rate_headings(const PlaceIndex& index, const ScanCodes& scan,
                      const RelocationOptions& options);
   void compare(const PlaceIndex& index, const ScanCodes& scan, const RelocationOptions& options);
-  void thin_out(std::size_t most, double cell_m);
-  void keep_agreeing(std::size_t most);
-  void choose(std::size_t most);
+  void sort_minima(std::size_t most);
+  void thin_out(const PlaceIndex& index, std::size_t most, double cell_m);
+  void keep_best(std::size_t most);
+  void choose(std::size_t fewest, std::size_t most, float slack);
 
   std::vector<std::uint32_t> places_;  // still in the race
   std::vector<std::uint8_t> ratings_;  // what speaks against each
   std::vector<std::size_t> bins_;      // that choose among them
+  std::vector<std::uint64_t> minima_;  // of what speaks against their places, by heading
+  std::vector<std::uint64_t> sorted_;
   QuickFit quick_fit_;
   std::vector<std::uint64_t> taken_;  // cells of matches that were kept, a hash table
   std::vector<PlaceMatch> matches_;

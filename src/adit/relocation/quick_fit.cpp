@@ -12,14 +12,10 @@ namespace {
 // From step to step returns must lie nearer to a wall to count (one sigma, m).
 constexpr std::array<float, 3> kApproach{0.8F, 0.6F, 0.4F};
 constexpr std::array<float, 3> kSettle{0.35F, 0.3F, 0.25F};
-constexpr std::array<float, 3> kFinish{0.2F, 0.15F, 0.12F};
 
 // How far the start may be off, one sigma (m, rad); what the returns leave open stays there.
 constexpr float kStartMetres = 0.5F;
 constexpr float kStartRadians = 0.06F;
-
-// Beyond a wall's end it is still met by this (m).
-constexpr float kBeyondEnd = 0.25F;
 
 struct Met {
   float off = 0.0F;  // from the wall (m)
@@ -34,7 +30,7 @@ inline Met meet(const WallField& field, float x, float y) {
   const float dx = x - line->x;
   const float dy = y - line->y;
   const float along = dx * line->along_x + dy * line->along_y;
-  if (along < -kBeyondEnd || along > line->length + kBeyondEnd) return {};
+  if (along < -WallField::kBeyondEnd || along > line->length + WallField::kBeyondEnd) return {};
   return {dy * line->along_x - dx * line->along_y, -line->along_y, line->along_x, true};
 }
 
@@ -65,10 +61,6 @@ QuickFit::Result QuickFit::approach(const WallField& field, const Pose2& map_fro
 
 QuickFit::Result QuickFit::settle(const WallField& field, const Pose2& map_from_laser) const {
   return fit(field, map_from_laser, kSettle);
-}
-
-QuickFit::Result QuickFit::finish(const WallField& field, const Pose2& map_from_laser) const {
-  return fit(field, map_from_laser, kFinish);
 }
 
 QuickFit::Result QuickFit::fit(const WallField& field, const Pose2& map_from_laser,

@@ -29,9 +29,6 @@ class QuickFit {
   /// Some more, from one that is nearly there.
   Result settle(const WallField& field, const Pose2& map_from_laser) const;
 
-  /// And the last.
-  Result finish(const WallField& field, const Pose2& map_from_laser) const;
-
  private:
   struct Point {
     float x = 0.0F;  // laser axes (m)

@@ -19,8 +19,8 @@ constexpr double kFittedDoubt = 0.02;
 // One that was fitted with few beams, once, by this (m).
 constexpr double kCoarseDoubt = 0.08;
 
-// Before poses were fitted their likelihoods differ by so many times more.
-constexpr double kUnfittedGaps = 3.0;
+// Before poses are fitted with all points their likelihoods differ by so many times more.
+constexpr double kUnfittedGaps = 1.5;
 
 /// Every so many beams of a scan.
 void thin(const LaserScan& scan, LaserScan& out) {
@@ -47,6 +47,10 @@ MapError scaled(const MapError& error, double ratio) {
   return {ratio * error.offset_sigma_m, error.length_m, ratio * error.roughness_sigma_m};
 }
 
+double error_ratio(const MapError& error, const MapError& stated) {
+  return stated.sigma_m() > 0.0 ? error.sigma_m() / stated.sigma_m() : 0.0;
+}
+
 bool is_near(const Pose2& a, const Pose2& b, double metres, double radians) {
   const Vector3d apart = difference(a, b);
   return apart.head<2>().norm() <= metres && std::abs(apart.z()) <= radians;
@@ -68,11 +72,14 @@ const RelocationResult& Relocator::locate(const RelocationQuery& query,
   result_.verdict = Status::lost;
   refinement_ = refinement;
   result_.map_error = query.map_error;
+  likelihood_.set_walls(index_.walls());
   likelihood_.set_scan(query.scan, query.scanner, query.map_error, likelihood);
   rate_candidates(query, options);
   fit_coarsely(query, options);
   fit_all_points(query, options);
+  result_.gap = gap_to_others(options);
   weigh(options);
+  examine_best(query, likelihood);
   result_.verdict = verdict(query.map_error, options, status);
   return result_;
 }
@@ -88,8 +95,7 @@ void Relocator::rate_candidates(const RelocationQuery& query, const RelocationOp
   const Pose2 laser_from_vehicle = inverse(query.scan.vehicle_from_laser);
   for (const PlaceMatch& match :
        search_.find(index_, query.scan, query.scanner, query.within, options)) {
-    hypotheses_.push_back({match.map_from_laser * laser_from_vehicle,
-                           likelihood_.at(map_, match.map_from_laser, options.doubt_m)});
+    hypotheses_.push_back({match.map_from_laser * laser_from_vehicle, 0.0});
   }
 }
 
@@ -119,33 +125,45 @@ static void keep_best(std::vector<Ranked>& ranked, std::size_t most,
   ranked.resize(kept);
 }
 
-/// Where a scan hardly shows how far along a drift it was taken, a pose that is a little off is an
-/// unlikely one before it is fitted: agreement with the walls counts as well.
+/// Fits with some of the beams, ever fewer poses. In mines that are much alike it takes the right
+/// error of the plan to tell them from each other.
 void Relocator::fit_coarsely(const RelocationQuery& query, const RelocationOptions& options) {
-  const auto agreeing =
-      std::min(hypotheses_.size(), static_cast<std::size_t>(std::max(0, options.agreeing)));
-  std::vector<Hypothesis> chosen(hypotheses_.begin(),
-                                 hypotheses_.begin() + static_cast<std::ptrdiff_t>(agreeing));
-  drop_hopeless(options, kUnfittedGaps);
-  std::stable_sort(hypotheses_.begin(), hypotheses_.end(), [](const auto& a, const auto& b) {
-    return a.log_likelihood > b.log_likelihood;
-  });
-  const auto most = static_cast<std::size_t>(std::max(1, options.coarsely_refined));
-  for (const Hypothesis& hypothesis : hypotheses_) {
-    if (chosen.size() >= most) break;
-    const bool has = std::any_of(chosen.begin(), chosen.end(), [&](const Hypothesis& other) {
-      return other.pose.vector() == hypothesis.pose.vector();
-    });
-    if (!has) chosen.push_back(hypothesis);
-  }
-  hypotheses_ = std::move(chosen);
+  const auto count = [](int value) { return static_cast<std::size_t>(std::max(1, value)); };
   thin(query.scan, thinned_);
-  improve(query, kCoarseDoubt, options);
-  keep_best(hypotheses_, static_cast<std::size_t>(std::max(1, options.again_refined)), options);
-  drop_hopeless(options, 1.0);
-  improve(query, kFittedDoubt, options);
-  keep_best(hypotheses_, static_cast<std::size_t>(std::max(1, options.refined)), options);
-  drop_hopeless(options, 1.0);
+  const RefinementInput input{map_, thinned_, query.scanner, query.map_error, query.motion};
+  for (Hypothesis& hypothesis : hypotheses_) {
+    const ScanFit& fitted = fit(input, hypothesis.pose, options);
+    hypothesis = {fitted.pose, fitted.log_likelihood};
+  }
+  keep_best(hypotheses_, count(options.rated_again), options);
+  rate_by_likeliest_error(query, kCoarseDoubt, options);
+  keep_best(hypotheses_, count(options.fitted_again), options);
+  const RefinementInput again{map_, thinned_, query.scanner, result_.map_error, query.motion};
+  for (Hypothesis& hypothesis : hypotheses_) {
+    hypothesis.pose = fit(again, hypothesis.pose, options).pose;
+  }
+  rate_by_likeliest_error(query, kFittedDoubt, options);
+  keep_best(hypotheses_, count(options.refined), options);
+}
+
+/// How likely each hypothesis is where the plan errs as much as suits it best; at the best of them,
+/// that is how much it errs.
+void Relocator::rate_by_likeliest_error(const RelocationQuery& query, double doubt_m,
+                                        const RelocationOptions& options) {
+  std::vector<double> ratios;
+  for (double ratio = 1.0; ratio > 0.99 * options.least_map_ratio; ratio *= 0.5) {
+    ratios.push_back(ratio);
+  }
+  likelihood_.set_map_error(query.map_error);
+  double most = -std::numeric_limits<double>::infinity();
+  for (Hypothesis& hypothesis : hypotheses_) {
+    const auto best =
+        likelihood_.best_at(map_, hypothesis.pose * query.scan.vehicle_from_laser, doubt_m, ratios);
+    hypothesis.log_likelihood = best.log_likelihood;
+    if (best.log_likelihood <= most) continue;
+    most = best.log_likelihood;
+    result_.map_error = scaled(query.map_error, best.error_ratio);
+  }
 }
 
 /// Those that are too unlikely beside the best to become so by another fit.
@@ -156,31 +174,23 @@ void Relocator::drop_hopeless(const RelocationOptions& options, double gaps) {
   std::erase_if(hypotheses_, [&](const Hypothesis& h) { return h.log_likelihood < least; });
 }
 
-/// Fits each hypothesis with some of the beams.
-void Relocator::improve(const RelocationQuery& query, double doubt_m,
-                        const RelocationOptions& options) {
-  const RefinementInput input{map_, thinned_, query.scanner, query.map_error, query.motion};
-  for (Hypothesis& hypothesis : hypotheses_) {
-    const Pose2 fitted = fit(input, hypothesis.pose, options).pose;
-    hypothesis = {fitted, likelihood_at(query, fitted, doubt_m)};
-  }
-}
-
 /// The poses that have a chance, fitted with all points. How well the plan fits the scan at the
 /// best of them says how much it errs here: where it hardly does, other poses cannot hide in its
 /// error.
 void Relocator::fit_all_points(const RelocationQuery& query, const RelocationOptions& options) {
-  take_fits(query, query.map_error, options);
+  likelihood_.set_map_error(result_.map_error);
+  drop_hopeless(options, kUnfittedGaps);
+  take_fits(query, result_.map_error, options);
   if (result_.poses.empty()) return;
-  const MapError error = likeliest_map_error(query, options);
-  result_.map_error = error;
-  likelihood_.set_map_error(error);
   hypotheses_.clear();
   for (const RankedPose& pose : result_.poses) {
-    hypotheses_.push_back({pose.pose, likelihood_at(query, pose.pose, kFittedDoubt)});
+    hypotheses_.push_back({pose.pose, pose.log_likelihood});
   }
-  drop_hopeless(options, 1.0);
-  take_fits(query, error, options);
+  const double before = result_.map_error.sigma_m();
+  rate_by_likeliest_error(query, kFittedDoubt, options);
+  likelihood_.set_map_error(result_.map_error);
+  if (result_.map_error.sigma_m() == before) return;
+  take_fits(query, result_.map_error, options);
 }
 
 void Relocator::take_fits(const RelocationQuery& query, const MapError& error,
@@ -198,24 +208,6 @@ void Relocator::take_fits(const RelocationQuery& query, const MapError& error,
     result_.poses.push_back(ranked);
   }
   keep_best(result_.poses, static_cast<std::size_t>(std::max(1, options.listed)), options);
-}
-
-MapError Relocator::likeliest_map_error(const RelocationQuery& query,
-                                        const RelocationOptions& options) {
-  constexpr double kStep = 0.5;
-  MapError likeliest = query.map_error;
-  double most = -std::numeric_limits<double>::infinity();
-  for (double ratio = 1.0; ratio > 0.99 * options.least_map_ratio; ratio *= kStep) {
-    const MapError error = scaled(query.map_error, ratio);
-    likelihood_.set_map_error(error);
-    for (const RankedPose& pose : result_.poses) {
-      const double likelihood = likelihood_at(query, pose.pose, kFittedDoubt);
-      if (likelihood <= most) continue;
-      most = likelihood;
-      likeliest = error;
-    }
-  }
-  return likeliest;
 }
 
 /// Weights from the likelihoods, tempered by what of them is news.
@@ -237,6 +229,41 @@ void Relocator::weigh(const RelocationOptions& options) {
   for (RankedPose& pose : poses) pose.weight /= sum;
 }
 
+double Relocator::gap_to_others(const RelocationOptions& options) const {
+  double gap = options.hopeless_gap;
+  for (const RankedPose& pose : result_.poses) {
+    const RankedPose& best = result_.poses.front();
+    if (is_near(best.pose, pose.pose, options.apart_m, options.apart_rad)) continue;
+    const double less = best.log_likelihood - pose.log_likelihood;
+    gap = std::min(gap, likelihood_.share_of_news() * less);
+  }
+  return gap;
+}
+
+/// What becomes of the beams at the best pose.
+void Relocator::examine_best(const RelocationQuery& query, const LikelihoodOptions& likelihood) {
+  constexpr int kBeams = 360;
+  result_.shares = {};
+  if (result_.poses.empty()) return;
+  LikelihoodOptions more = likelihood;
+  more.beams = std::max(kBeams, likelihood.beams);
+  all_beams_.set_scan(query.scan, query.scanner, result_.map_error, more);
+  const Pose2 laser = result_.poses.front().pose * query.scan.vehicle_from_laser;
+  result_.shares = all_beams_.shares_at(map_, laser, kFittedDoubt);
+}
+
+/// Whether the best pose is the place, and not one that resembles it by chance. Of all places of a
+/// mine one will resemble any scan; it then explains part of it, sees through walls here and there,
+/// needs a plan that errs, and is little better than the next: together these weigh.
+bool Relocator::stands_alone(const MapError& stated, const RelocationOptions& options) const {
+  if (result_.gap < options.sure_gap) return false;
+  const double asked =
+      options.sure_evidence_ratio - options.sure_evidence_per_gap * result_.gap +
+      options.sure_evidence_per_through * (result_.shares.through + result_.shares.unmapped) +
+      options.sure_evidence_per_error * error_ratio(result_.map_error, stated);
+  return result_.poses.front().quality.evidence_ratio >= asked;
+}
+
 Status Relocator::verdict(const MapError& stated, const RelocationOptions& options,
                           const StatusOptions& status) const {
   if (result_.poses.empty()) return Status::lost;
@@ -249,12 +276,7 @@ Status Relocator::verdict(const MapError& stated, const RelocationOptions& optio
     if (!is_near(best.pose, pose.pose, options.apart_m, options.apart_rad)) rivals += pose.weight;
   }
   if (rivals > options.rival_weight) return Status::ambiguous;
-  const double error_ratio =
-      stated.sigma_m() > 0.0 ? result_.map_error.sigma_m() / stated.sigma_m() : 0.0;
-  const double asked = options.sure_evidence_ratio +
-                       options.sure_evidence_per_behind * best.quality.behind_ratio +
-                       options.sure_evidence_per_error * error_ratio;
-  if (best.quality.evidence_ratio < asked) return Status::ambiguous;
+  if (!stands_alone(stated, options)) return Status::ambiguous;
   return open_direction(best.covariance, status) ? Status::degraded : Status::ok;
 }
 

@@ -31,6 +31,10 @@ struct RelocationResult {
   /// `ambiguous`: several do. `lost`: none.
   Status verdict = Status::lost;
   std::vector<RankedPose> poses;
+  /// How much less likely the best of the other poses is than the first (log, of what is news); no
+  /// more than the gap from which on they are not looked at.
+  double gap = 0.0;
+  BeamShares shares;   ///< at the first pose
   MapError map_error;  ///< how much the plan errs by this scan; no more than stated
 };
 
@@ -67,15 +71,18 @@ class Relocator {
   void rate_candidates(const RelocationQuery& query, const RelocationOptions& options);
   void fit_coarsely(const RelocationQuery& query, const RelocationOptions& options);
   void drop_hopeless(const RelocationOptions& options, double gaps);
-  void improve(const RelocationQuery& query, double doubt_m, const RelocationOptions& options);
+  void rate_by_likeliest_error(const RelocationQuery& query, double doubt_m,
+                               const RelocationOptions& options);
   void fit_all_points(const RelocationQuery& query, const RelocationOptions& options);
   double likelihood_at(const RelocationQuery& query, const Pose2& map_from_vehicle, double doubt_m);
   const ScanFit& fit(const RefinementInput& input, const Pose2& pose,
                      const RelocationOptions& options);
   void take_fits(const RelocationQuery& query, const MapError& error,
                  const RelocationOptions& options);
-  MapError likeliest_map_error(const RelocationQuery& query, const RelocationOptions& options);
   void weigh(const RelocationOptions& options);
+  double gap_to_others(const RelocationOptions& options) const;
+  void examine_best(const RelocationQuery& query, const LikelihoodOptions& likelihood);
+  bool stands_alone(const MapError& stated, const RelocationOptions& options) const;
   Status verdict(const MapError& stated, const RelocationOptions& options,
                  const StatusOptions& status) const;
 
@@ -83,6 +90,7 @@ class Relocator {
   const PlaceIndex& index_;
   PlaceSearch search_;
   ScanLikelihood likelihood_;
+  ScanLikelihood all_beams_;
   Refiner refiner_;
   RefinementOptions refinement_;
   LaserScan thinned_;

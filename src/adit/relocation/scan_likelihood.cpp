@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace adit {
 namespace {
@@ -11,6 +12,23 @@ constexpr double kFlatCosine = 0.2;
 
 // An unevenly spaced scan takes its ranges from so many even rays.
 constexpr std::size_t kEvenRays = 720;
+
+/// Of a range that is off by so much, on a wall whose place across it has such a variance.
+double normal_density(double off, double wall_variance, double cosine, double noise) {
+  const double variance = noise + wall_variance / (cosine * cosine);
+  return std::exp(std::max(-200.0, -0.5 * off * off / variance)) / std::sqrt(kTwoPi * variance);
+}
+
+template <class Matrix>
+Matrix product(const Matrix& a, const Matrix& b) {
+  Matrix out{};
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < a.size(); ++j) {
+      for (std::size_t k = 0; k < a.size(); ++k) out[i][j] += a[i][k] * b[k][j];
+    }
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -34,23 +52,26 @@ void ScanLikelihood::set_scan(const LaserScan& scan, const ScannerModel& scanner
   set_map_error(error);
   const double away = options.leave_ratio;
   const double back = options.back_ratio;
-  const double mixed = 1.0 - std::pow(1.0 - away - back, static_cast<double>(stride));
-  leave_ = away / (away + back) * mixed;
-  back_ = back / (away + back) * mixed;
+  const double gone = options.gone_ratio;
+  const std::array<Densities, kMets> step{{{1.0 - away - gone, away, gone},
+                                           {back, 1.0 - back - gone, gone},
+                                           {back, gone, 1.0 - back - gone}}};
+  next_ = step;
+  for (std::size_t i = 1; i < stride; ++i) next_ = product(next_, step);
 }
 
 void ScanLikelihood::set_map_error(const MapError& error) {
   map_noise_ = error.sigma_m() * error.sigma_m();
-  double news = 0.0;
-  double returns = 0.0;
-  for (const Beam& beam : beams_) {
-    if (!beam.has_return) continue;
-    const double spacing = beam.range * std::abs(bearing_step_);
-    const double alike = std::max(1.0, options_.piece_m / std::max(spacing, 1e-3));  // beams
-    returns += 1.0;
-    news += (map_noise_ + noise_) / (alike * map_noise_ + noise_);
-  }
-  share_of_news_ = returns > 0.0 ? news / returns : 1.0;
+  offset_noise_ = error.offset_sigma_m * error.offset_sigma_m;
+  length_m_ = std::max(1e-3, error.length_m);
+}
+
+/// The ray among those of `look_around` that a beam follows.
+std::size_t ScanLikelihood::ray_of(std::size_t beam, double heading) const {
+  if (evenly_spaced_) return beam;
+  const double turns = (heading + kPi) / kTwoPi;
+  const double part = (turns - std::floor(turns)) * static_cast<double>(kEvenRays);
+  return static_cast<std::size_t>(std::lround(part)) % kEvenRays;
 }
 
 void ScanLikelihood::look_around(const LineMap& map, const Pose2& map_from_laser) {
@@ -63,58 +84,192 @@ void ScanLikelihood::look_around(const LineMap& map, const Pose2& map_from_laser
   } else {
     visibility_.ranges(-kPi, kTwoPi / static_cast<double>(rays), ranges_, walls_);
   }
+  sights_.resize(beams_.size());
+  Vector2d before = Vector2d::Zero();
+  Vector2d along_before = Vector2d::Zero();
+  for (std::size_t k = 0; k < beams_.size(); ++k) {
+    const double heading = map_from_laser.theta + beams_[k].bearing;
+    const std::size_t ray = ray_of(k, heading);
+    Sight& sight = sights_[k];
+    sight = {ranges_[ray], 1.0, 0.0};
+    if (walls_[ray] < 0) {
+      sight.range = std::numeric_limits<double>::infinity();
+      along_before.setZero();
+      continue;
+    }
+    const Segment& segment = map.walls()[static_cast<std::size_t>(walls_[ray])].segment;
+    const Vector2d direction = unit_vector(heading);
+    const Vector2d along = (segment.b - segment.a).normalized();
+    const Vector2d point = sight.range * direction;
+    sight.cosine = std::max(0.02, std::abs(cross(along, direction)));
+    sight.same_off =
+        std::abs(along.dot(along_before)) * std::exp(-(point - before).norm() / length_m_);
+    before = point;
+    along_before = along;
+    look_beyond(beams_[k], map_from_laser.translation(), direction, walls_[ray], sight);
+  }
 }
 
-ScanLikelihood::Densities ScanLikelihood::densities(const LineMap& map, const Beam& beam,
-                                                    double heading, double range, int wall,
-                                                    double doubt_m) const {
-  if (wall < 0) {
+void ScanLikelihood::look_beyond(const Beam& beam, const Vector2d& laser, const Vector2d& direction,
+                                 int wall, Sight& sight) const {
+  if (field_ == nullptr || !beam.has_return || beam.range < sight.range) return;
+  const auto met = field_->meet(laser + beam.range * direction);
+  if (!met || met->wall == wall) return;
+  sight.beyond_cosine = std::max(0.02, std::abs(met->normal.dot(direction)));
+  sight.beyond_off = met->off / sight.beyond_cosine;
+}
+
+ScanLikelihood::Densities ScanLikelihood::densities(const Beam& beam, const Sight& sight,
+                                                    const Offset& offset, double doubt_m) const {
+  if (!std::isfinite(sight.range)) {
     // The map has nothing in reach.
-    if (!beam.has_return) return {1.0, options_.dropout_ratio};
-    return {0.0, 1.0 / reach_};
+    if (!beam.has_return) return {1.0, options_.dropout_ratio, 0.0};
+    return {0.0, 1.0 / reach_, 0.0};
   }
-  const Segment& segment = map.walls()[static_cast<std::size_t>(wall)].segment;
-  const Vector2d along = (segment.b - segment.a).normalized();
-  const double cosine = std::max(0.02, std::abs(cross(along, unit_vector(heading))));
   if (!beam.has_return) {
-    const double missed = cosine < kFlatCosine ? 0.3 : options_.dropout_ratio;
-    const double close = std::min(1.0, (reach_ - range) / (3.0 * (doubt_m + 1.0)));
-    return {1.0 + (missed - 1.0) * std::max(0.0, close), options_.dropout_ratio};
+    const double missed = sight.cosine < kFlatCosine ? 0.3 : options_.dropout_ratio;
+    const double close = std::min(1.0, (reach_ - sight.range) / (3.0 * (doubt_m + 1.0)));
+    return {1.0 + (missed - 1.0) * std::max(0.0, close), options_.dropout_ratio,
+            options_.dropout_ratio};
   }
-  const double off = beam.range - range;
-  const double variance = noise_ + (map_noise_ + doubt_m * doubt_m) / (cosine * cosine);
-  const double wall_density =
-      std::exp(std::max(-200.0, -0.5 * off * off / variance)) / std::sqrt(kTwoPi * variance);
-  const double other =
-      off < 0.0 ? (1.0 - options_.long_ratio) / range : options_.long_ratio / std::max(1.0, reach_);
-  return {wall_density, other};
+  const double off = beam.range - sight.range;
+  const double white = map_noise_ - offset_noise_ + doubt_m * doubt_m;
+  Densities densities{};
+  densities[kWall] = normal_density(off - offset.mean / sight.cosine, offset.variance + white,
+                                    sight.cosine, noise_);
+  densities[kOther] = off < 0.0 ? (1.0 - options_.long_ratio) / sight.range
+                                : options_.long_ratio / std::max(1.0, reach_);
+  if (sight.beyond_cosine > 0.0) {
+    densities[kBeyond] =
+        normal_density(sight.beyond_off, offset_noise_ + white, sight.beyond_cosine, noise_);
+  }
+  return densities;
 }
 
 double ScanLikelihood::at(const LineMap& map, const Pose2& map_from_laser, double doubt_m) {
   look_around(map, map_from_laser);
-  double wall = back_ / (leave_ + back_);
-  double other = 1.0 - wall;
+  return in_sight(doubt_m);
+}
+
+ScanLikelihood::Best ScanLikelihood::best_at(const LineMap& map, const Pose2& map_from_laser,
+                                             double doubt_m, std::span<const double> error_ratios) {
+  look_around(map, map_from_laser);
+  const double stated = map_noise_;
+  const double stated_offset = offset_noise_;
+  Best best{-std::numeric_limits<double>::infinity(), 1.0};
+  for (const double ratio : error_ratios) {
+    map_noise_ = ratio * ratio * stated;
+    offset_noise_ = ratio * ratio * stated_offset;
+    const double likelihood = in_sight(doubt_m);
+    if (likelihood > best.log_likelihood) best = {likelihood, ratio};
+  }
+  map_noise_ = stated;
+  offset_noise_ = stated_offset;
+  return best;
+}
+
+/// Log of the density of the beams, from where it was looked around last. The wall's offset is
+/// tracked from beam to beam by a Kalman filter, in which a beam counts by the probability that it
+/// met the wall (Bar-Shalom and Tse, Automatica 11, 1975).
+double ScanLikelihood::in_sight(double doubt_m) const {
+  const double away = options_.leave_ratio + options_.gone_ratio;
+  Densities met{options_.back_ratio / (options_.back_ratio + away), 0.0, 0.0};
+  met[kOther] = (1.0 - met[kWall]) * options_.leave_ratio / away;
+  met[kBeyond] = 1.0 - met[kWall] - met[kOther];
   double sum = 0.0;
+  Offset offset{0.0, offset_noise_};
   for (std::size_t k = 0; k < beams_.size(); ++k) {
     const Beam& beam = beams_[k];
-    const double heading = map_from_laser.theta + beam.bearing;
-    std::size_t ray = k;
-    if (!evenly_spaced_) {
-      const double turns = (heading + kPi) / kTwoPi;
-      ray = static_cast<std::size_t>(
-                std::lround((turns - std::floor(turns)) * static_cast<double>(kEvenRays))) %
-            kEvenRays;
-    }
-    const Densities density = densities(map, beam, heading, ranges_[ray], walls_[ray], doubt_m);
-    wall *= density.wall;
-    other *= density.other;
-    const double scale = std::max(wall + other, 1e-200);
+    const Sight& sight = sights_[k];
+    const double same = sight.same_off;
+    offset.mean *= same;
+    offset.variance = offset_noise_ - same * same * (offset_noise_ - offset.variance);
+    const Densities density = densities(beam, sight, offset, doubt_m);
+    double scale = 1e-200;
+    for (std::size_t i = 0; i < kMets; ++i) scale += met[i] *= density[i];
     sum += std::log(scale);
-    const double stays = (wall * (1.0 - leave_) + other * back_) / scale;
-    other = (wall * leave_ + other * (1.0 - back_)) / scale;
-    wall = stays;
+    for (double& share : met) share /= scale;
+    if (beam.has_return && std::isfinite(sight.range))
+      follow(beam, sight, met[kWall], doubt_m, offset);
+    Densities next{};
+    for (std::size_t i = 0; i < kMets; ++i) {
+      for (std::size_t j = 0; j < kMets; ++j) next[j] += met[i] * next_[i][j];
+    }
+    met = next;
   }
   return sum;
+}
+
+/// Takes a beam that met the wall with such a probability.
+void ScanLikelihood::follow(const Beam& beam, const Sight& sight, double on_wall, double doubt_m,
+                            Offset& offset) const {
+  const double white =
+      map_noise_ - offset_noise_ + doubt_m * doubt_m + noise_ * sight.cosine * sight.cosine;
+  const double gain = offset.variance / (offset.variance + white);
+  const double correction = gain * ((beam.range - sight.range) * sight.cosine - offset.mean);
+  offset.mean += on_wall * correction;
+  offset.variance =
+      std::min(offset_noise_, offset.variance * (1.0 - on_wall * gain) +
+                                  on_wall * (1.0 - on_wall) * correction * correction);
+}
+
+/// Where an edge is near the beam, either side of it may be what it met.
+BeamShares ScanLikelihood::shares_at(const LineMap& map, const Pose2& map_from_laser,
+                                     double doubt_m) {
+  constexpr std::size_t kDense = 1440;
+  constexpr double kStep = kTwoPi / static_cast<double>(kDense);
+  constexpr double kSigmas = 3.0;
+  visibility_.sweep(map, map_from_laser.translation(), reach_);
+  dense_ranges_.resize(kDense);
+  dense_walls_.resize(kDense);
+  visibility_.ranges(-kPi, kStep, dense_ranges_, dense_walls_);
+  BeamShares out;
+  double expected = 0.0;
+  for (const Beam& beam : beams_) {
+    const double heading = map_from_laser.theta + beam.bearing;
+    const auto middle = static_cast<std::size_t>(std::lround((heading + kPi) / kStep) +
+                                                 4 * static_cast<long>(kDense));
+    // A wall's edge may lie aside by the map's error.
+    const double aside = std::sqrt(map_noise_ + doubt_m * doubt_m) / std::max(1.0, beam.range);
+    const auto reach = 1 + static_cast<std::size_t>(2.0 * aside / kStep);
+    double nearest = reach_;
+    double farthest = 0.0;
+    for (std::size_t ray = middle - reach; ray <= middle + reach; ++ray) {
+      const double range = std::min(reach_, dense_ranges_[ray % kDense]);
+      const int wall = dense_walls_[ray % kDense];
+      double tolerance = std::sqrt(noise_);
+      if (wall >= 0) {
+        const Segment& segment = map.walls()[static_cast<std::size_t>(wall)].segment;
+        const Vector2d along = (segment.b - segment.a).normalized();
+        const double cosine = std::max(0.02, std::abs(cross(along, unit_vector(heading))));
+        tolerance = std::sqrt(noise_ + (map_noise_ + doubt_m * doubt_m) / (cosine * cosine));
+      }
+      nearest = std::min(nearest, range - kSigmas * tolerance);
+      farthest = std::max(farthest, range + kSigmas * tolerance);
+    }
+    if (!beam.has_return) {
+      const bool is_due = farthest < 0.8 * reach_;
+      expected += is_due;
+      out.missing += is_due;
+      continue;
+    }
+    expected += 1.0;
+    out.returns += 1.0;
+    const bool is_mapped = std::isfinite(dense_ranges_[middle % kDense]) || farthest < reach_;
+    if (!is_mapped && beam.range < nearest) {
+      out.unmapped += 1.0;
+      continue;
+    }
+    out.before += beam.range < nearest;
+    out.through += beam.range > farthest;
+  }
+  if (!(out.returns > 0.0)) return out;
+  out.before /= out.returns;
+  out.through /= out.returns;
+  out.unmapped /= out.returns;
+  out.on_wall = 1.0 - out.before - out.through - out.unmapped;
+  out.missing /= expected;
+  return out;
 }
 
 }  // namespace adit

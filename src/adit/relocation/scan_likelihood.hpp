@@ -1,35 +1,66 @@
 #pragma once
 
+#include <array>
+#include <span>
 #include <vector>
 
 #include "adit/map/line_map.hpp"
 #include "adit/refinement/map_error.hpp"
 #include "adit/relocation/options.hpp"
+#include "adit/relocation/wall_field.hpp"
 #include "adit/scan/laser_scan.hpp"
 #include "adit/scan/scanner_model.hpp"
 #include "adit/visibility/visibility.hpp"
 
 namespace adit {
 
+/// What becomes of a scan's beams at a pose, as shares of its returns; `missing` of the beams that
+/// should have met a wall well within reach. Counted only where neither the map's error nor a pose
+/// that is a little off explains it.
+struct BeamShares {
+  double on_wall = 0.0;
+  double before = 0.0;    ///< something stands there
+  double through = 0.0;   ///< from behind the map's wall: no clutter makes a beam longer
+  double unmapped = 0.0;  ///< where the map has nothing in reach
+  double missing = 0.0;
+  double returns = 0.0;
+};
+
 /// How likely a scan is from a pose, comparable between any two poses of a map.
 ///
-/// Each beam meets the map's wall or something else, in a chain along the sweep as in the
-/// refinement. Unlike its evidence this one measures against the same everywhere: a return where
-/// the map has nothing, and none where it has a wall, speak against a pose.
+/// Each beam meets the map's wall, something else, or a wall behind one that is gone, in a chain
+/// along the sweep. The wall's offset from the map, which neighbouring beams share, is tracked
+/// along it: a wall that lies a hand's breadth off speaks once against a pose, not once a beam. A
+/// return where the map has nothing, and none where it has a wall, speak against it as well.
 class ScanLikelihood {
  public:
   /// Takes the scan, of which it looks at a hundred beams or so.
   void set_scan(const LaserScan& scan, const ScannerModel& scanner, const MapError& error,
                 const LikelihoodOptions& options);
 
+  /// Where walls may be gone, those behind them are looked up here.
+  void set_walls(const WallField& walls) { field_ = &walls; }
+
   /// Log of the probability density of the beams if the scanner is at most about `doubt_m` off.
   double at(const LineMap& map, const Pose2& map_from_laser, double doubt_m);
+
+  /// The same, at the most likely of the map's errors that are these parts of the one stated; says
+  /// which.
+  struct Best {
+    double log_likelihood = 0.0;
+    double error_ratio = 1.0;
+  };
+  Best best_at(const LineMap& map, const Pose2& map_from_laser, double doubt_m,
+               std::span<const double> error_ratios);
+
+  /// The beams at a pose that is at most about `doubt_m` off.
+  BeamShares shares_at(const LineMap& map, const Pose2& map_from_laser, double doubt_m);
 
   /// The same scan against a map that errs by so much.
   void set_map_error(const MapError& error);
 
-  /// How much of what the beams say is news: neighbours see the same stretch of wall.
-  double share_of_news() const { return share_of_news_; }
+  /// How much of what the beams say is news; see the option `trust`.
+  double share_of_news() const { return options_.trust; }
 
  private:
   struct Beam {
@@ -37,13 +68,32 @@ class ScanLikelihood {
     double range = 0.0;    // m; the scanner's reach without return
     bool has_return = false;
   };
-  struct Densities {
-    double wall = 0.0;
-    double other = 0.0;
+  /// The wall of the map that a beam should meet, and the one nearest to what it met.
+  struct Sight {
+    double range = 0.0;          // m; infinity where there is none in reach
+    double cosine = 1.0;         // of the angle of incidence
+    double same_off = 0.0;       // correlation of the wall's offset with that at the beam before
+    double beyond_off = 0.0;     // along the beam, from another wall behind the first (m)
+    double beyond_cosine = 0.0;  // zero where there is no such wall
+  };
+  /// What a beam may meet: the map's wall, something else, a wall of the map behind one that is
+  /// gone.
+  enum Met : std::size_t { kWall, kOther, kBeyond, kMets };
+  using Densities = std::array<double, kMets>;
+  /// The offset of the wall that the last beams met, away from the scanner.
+  struct Offset {
+    double mean = 0.0;  // m
+    double variance = 0.0;
   };
   void look_around(const LineMap& map, const Pose2& map_from_laser);
-  Densities densities(const LineMap& map, const Beam& beam, double heading, double range, int wall,
+  std::size_t ray_of(std::size_t beam, double heading) const;
+  void look_beyond(const Beam& beam, const Vector2d& laser, const Vector2d& direction, int wall,
+                   Sight& sight) const;
+  double in_sight(double doubt_m) const;
+  Densities densities(const Beam& beam, const Sight& sight, const Offset& offset,
                       double doubt_m) const;
+  void follow(const Beam& beam, const Sight& sight, double on_wall, double doubt_m,
+              Offset& offset) const;
 
   LikelihoodOptions options_;
   std::vector<Beam> beams_;
@@ -51,14 +101,18 @@ class ScanLikelihood {
   double first_bearing_ = 0.0;
   double bearing_step_ = 0.0;
   double reach_ = 0.0;
-  double noise_ = 0.0;      // variance of a range (m²)
-  double map_noise_ = 0.0;  // variance of a wall's place (m²)
-  double leave_ = 0.0;      // of the chain, from one beam looked at to the next
-  double back_ = 0.0;
-  double share_of_news_ = 1.0;
+  double noise_ = 0.0;                   // variance of a range (m²)
+  double map_noise_ = 0.0;               // variance of a wall's place (m²)
+  double offset_noise_ = 0.0;            // the part of it that neighbours share ...
+  double length_m_ = 1.0;                // ... falling to 1/e within so much
+  std::array<Densities, kMets> next_{};  // of the chain: from what one beam met to the next
+  const WallField* field_ = nullptr;
   Visibility visibility_;
+  std::vector<Sight> sights_;
   std::vector<double> ranges_;
   std::vector<int> walls_;
+  std::vector<double> dense_ranges_;
+  std::vector<int> dense_walls_;
 };
 
 }  // namespace adit

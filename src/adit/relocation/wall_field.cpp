@@ -86,6 +86,19 @@ void WallField::offer(std::int32_t column, std::int32_t row, std::int32_t line) 
   if (is_nearer) nearest = line;
 }
 
+std::optional<WallField::Meeting> WallField::meet(const Vector2d& point) const {
+  const Vector2d here = point - origin_;
+  const Line* line = near(static_cast<float>(here.x()), static_cast<float>(here.y()));
+  if (line == nullptr) return std::nullopt;
+  const Vector2d along(static_cast<double>(line->along_x), static_cast<double>(line->along_y));
+  const Vector2d from = here - Vector2d(static_cast<double>(line->x), static_cast<double>(line->y));
+  const double way = along.dot(from);
+  constexpr double kSlack = kBeyondEnd;
+  if (way < -kSlack || way > static_cast<double>(line->length) + kSlack) return std::nullopt;
+  return Meeting{static_cast<int>(line - lines_.data()), cross(along, from),
+                 Vector2d(-along.y(), along.x())};
+}
+
 std::size_t WallField::memory() const {
   return tiles_.capacity() * sizeof(std::int32_t) + cells_.capacity() * sizeof(Tile) +
          lines_.capacity() * sizeof(Line);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "adit/map/line_map.hpp"
@@ -23,6 +24,9 @@ class WallField {
     float length = 0.0F;
   };
 
+  /// Beyond a wall's end it is still met by this (m).
+  static constexpr float kBeyondEnd = 0.25F;
+
   WallField() = default;
   explicit WallField(const LineMap& map);
 
@@ -39,6 +43,16 @@ class WallField {
     const std::int32_t line = cells_[static_cast<std::size_t>(tile)][cell_of(column, row)];
     return line < 0 ? nullptr : &lines_[static_cast<std::size_t>(line)];
   }
+
+  /// A point and the wall nearest to it.
+  struct Meeting {
+    int wall = 0;
+    double off = 0.0;  ///< how far from it, along `normal` (m)
+    Vector2d normal = Vector2d::UnitX();
+  };
+
+  /// The wall that a point of the map may lie on; none beyond the ends of the nearest one.
+  std::optional<Meeting> meet(const Vector2d& point) const;
 
   /// Bytes that it holds.
   std::size_t memory() const;

@@ -1,0 +1,117 @@
+#include "adit/relocation/place_file.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <istream>
+#include <ostream>
+#include <type_traits>
+#include <utility>
+
+namespace adit {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "indices are written as they lie");
+
+constexpr std::uint64_t kMagic = 0x3158444954494441u;  // "ADITIDX1"
+
+/// FNV-1a (Fowler, Noll, Vo), of eight bytes at a time.
+class Hash {
+ public:
+  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
+  void add(std::uint64_t word) {
+    value_ = (value_ ^ word) * 0x100000001B3u;
+    value_ ^= value_ >> 29;
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xCBF29CE484222325u;
+};
+
+/// Of all that an index depends on.
+std::uint64_t hash_of(const LineMap& map, const PlaceIndexOptions& options) {
+  Hash hash;
+  for (const Wall& wall : map.walls()) {
+    for (const Vector2d& end : {wall.segment.a, wall.segment.b}) {
+      hash.add(end.x());
+      hash.add(end.y());
+    }
+  }
+  PlaceIndexOptions::visit(options, [&](const char*, const auto& value, const char*) {
+    hash.add(static_cast<double>(value));
+  });
+  return hash.value();
+}
+
+template <class Value>
+void put(std::ostream& out, const Value& value) {
+  static_assert(std::is_trivially_copyable_v<Value>);
+  out.write(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+template <class Value>
+bool get(std::istream& in, Value& value) {
+  static_assert(std::is_trivially_copyable_v<Value>);
+  return static_cast<bool>(in.read(reinterpret_cast<char*>(&value), sizeof value));
+}
+
+template <class Value>
+void put_all(std::ostream& out, const std::vector<Value>& values) {
+  static_assert(std::is_trivially_copyable_v<Value>);
+  put(out, static_cast<std::uint64_t>(values.size()));
+  out.write(reinterpret_cast<const char*>(values.data()),
+            static_cast<std::streamsize>(values.size() * sizeof(Value)));
+}
+
+/// In pieces, so that a damaged count runs into the end of the file, not out of memory.
+template <class Value>
+bool get_all(std::istream& in, std::vector<Value>& values) {
+  static_assert(std::is_trivially_copyable_v<Value>);
+  constexpr std::uint64_t kPiece = std::uint64_t{1} << 16;
+  std::uint64_t left = 0;
+  if (!get(in, left)) return false;
+  values.clear();
+  while (left > 0) {
+    const auto now = static_cast<std::size_t>(std::min(left, kPiece));
+    const std::size_t had = values.size();
+    values.resize(had + now);
+    const auto bytes = static_cast<std::streamsize>(now * sizeof(Value));
+    if (!in.read(reinterpret_cast<char*>(values.data() + had), bytes)) return false;
+    left -= now;
+  }
+  return true;
+}
+
+}  // namespace
+
+Result<void> write_places(const PlaceIndex& places, const LineMap& map,
+                          const PlaceIndexOptions& options, std::ostream& out) {
+  const PlaceArrays& arrays = places.arrays();
+  put(out, kMagic);
+  put(out, hash_of(map, options));
+  put(out, arrays.origin_x);
+  put(out, arrays.origin_y);
+  put(out, arrays.pitch_m);
+  put_all(out, arrays.cells);
+  put_all(out, arrays.codes);
+  if (!out.flush()) return fail("the index cannot be written");
+  return {};
+}
+
+Result<std::optional<PlaceIndex>> read_places(const LineMap& map, const PlaceIndexOptions& options,
+                                              std::istream& in) {
+  std::uint64_t magic = 0;
+  std::uint64_t hash = 0;
+  if (!get(in, magic) || magic != kMagic) return fail("not an index of places");
+  if (!get(in, hash)) return fail("the index is cut short");
+  if (hash != hash_of(map, options)) return std::optional<PlaceIndex>();
+  PlaceArrays arrays;
+  const bool whole = get(in, arrays.origin_x) && get(in, arrays.origin_y) &&
+                     get(in, arrays.pitch_m) && get_all(in, arrays.cells) &&
+                     get_all(in, arrays.codes) && arrays.cells.size() == arrays.codes.size();
+  if (!whole) return fail("the index is cut short");
+  return std::optional<PlaceIndex>(std::in_place, map, std::move(arrays));
+}
+
+}  // namespace adit
