@@ -26,22 +26,6 @@ LaserScan empty_scan(const ScannerSpec& spec, double stamp) {
   return scan;
 }
 
-/// What the scanner reports for a surface at `range` metres, or for none at infinity.
-double measure(double range, const ScannerSpec& spec, Random& random) {
-  const ScannerModel& model = spec.model;
-  if (spec.dust_ratio > 0.0 && random.chance(spec.dust_ratio)) {
-    range = std::min(range, -spec.dust_range_m * std::log(1.0 - random.uniform()));
-  }
-  const bool dropped = spec.dropout_ratio > 0.0 && random.chance(spec.dropout_ratio);
-  const double noise = model.range_sigma_m * random.normal();
-  if (dropped || !(range <= model.max_range_m)) return model.max_range_m;
-  double reported = range + noise;
-  if (model.quantisation_m > 0.0) {
-    reported = model.quantisation_m * std::round(reported / model.quantisation_m);
-  }
-  return reported < model.min_range_m ? model.max_range_m : std::min(reported, model.max_range_m);
-}
-
 double nearest_surface(const RayCaster& fixed, std::span<const Segment> moving,
                        const Vector2d& origin, const Vector2d& direction, double max_range) {
   const double range = fixed.range(origin, direction, max_range);
@@ -56,7 +40,7 @@ double measure_beam(const RayCaster& fixed, std::span<const Segment> moving,
   const double range =
       nearest_surface(fixed, moving, map_from_laser.translation(),
                       unit_vector(map_from_laser.theta + bearing + jitter), spec.model.max_range_m);
-  return measure(range, spec, random);
+  return reported_range(range, spec, random);
 }
 
 }  // namespace
@@ -116,6 +100,21 @@ double first_beam_lead(const ScannerSpec& spec) {
       return spec.model.sweep_s;
   }
   return 0.0;
+}
+
+double reported_range(double range, const ScannerSpec& spec, Random& random) {
+  const ScannerModel& model = spec.model;
+  if (spec.dust_ratio > 0.0 && random.chance(spec.dust_ratio)) {
+    range = std::min(range, -spec.dust_range_m * std::log(1.0 - random.uniform()));
+  }
+  const bool dropped = spec.dropout_ratio > 0.0 && random.chance(spec.dropout_ratio);
+  const double noise = model.range_sigma_m * random.normal();
+  if (dropped || !(range <= model.max_range_m)) return model.max_range_m;
+  double reported = range + noise;
+  if (model.quantisation_m > 0.0) {
+    reported = model.quantisation_m * std::round(reported / model.quantisation_m);
+  }
+  return reported < model.min_range_m ? model.max_range_m : std::min(reported, model.max_range_m);
 }
 
 LaserScan simulate_scan(const RayCaster& fixed, const Pose2& map_from_vehicle,

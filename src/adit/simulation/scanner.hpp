@@ -55,6 +55,10 @@ std::optional<ScannerSpec> scanner_named(std::string_view name);
 /// How long before a scan's stamp its first beam is taken (s).
 double first_beam_lead(const ScannerSpec& spec);
 
+/// What the scanner reports for a surface at `range` metres, or for none at infinity: noise, steps,
+/// drop-outs and dust.
+double reported_range(double range, const ScannerSpec& spec, Random& random);
+
 /// A scan of a vehicle at rest. A beam without return is stored as the maximum range. `moving` are
 /// outlines that are not in `fixed`, such as people at this time.
 LaserScan simulate_scan(const RayCaster& fixed, const Pose2& map_from_vehicle,
