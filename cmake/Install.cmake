@@ -37,6 +37,9 @@ adit_install(adit-core-targets ${core_targets} adit_core)
 if(adit_io_modules)
   list(TRANSFORM adit_io_modules PREPEND adit_ OUTPUT_VARIABLE io_targets)
   adit_install(adit-io-targets ${io_targets})
+  # A configuration holds the options of the survey, whether or not it is built.
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/src/adit/survey
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/adit FILES_MATCHING PATTERN "*.hpp")
 endif()
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/adit-config.cmake.in

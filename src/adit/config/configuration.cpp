@@ -91,6 +91,24 @@ constexpr std::array kAboveZero = {
     "localizer.prior_floor_m",
     "localizer.prior_floor_rad",
     "localizer.prior_inflation",
+    "survey_alignment.scale_m",
+    "survey_alignment.wall_sigma_m",
+    "survey_alignment.shared_error_points",
+    "survey_loops.first_limit_m",
+    "survey_loops.closure_sigma_m",
+    "survey_loops.closure_sigma_rad",
+    "survey_joint.sight_m",
+    "survey_joint.anchor_sigma_m",
+    "survey_joint.anchor_sigma_rad",
+    "survey_joint.pair_sigma_m",
+    "survey_joint.pair_sigma_rad",
+    "survey_known_places.apart_m",
+    "survey_known_places.plan_sigma_m",
+    "survey_changes.step_m",
+    "survey_walls.cell_m",
+    "survey_walls.merge_m",
+    "survey_walls.smooth_m",
+    "survey_walls.tolerance_m",
 };
 
 /// Probabilities of what may or may not happen.
@@ -102,12 +120,19 @@ constexpr std::array kProbabilities = {
 };
 
 /// Counts that cannot be 0, and the least that they can be.
-constexpr std::array<std::pair<const char*, int>, 5> kLeastCounts = {{
+constexpr std::array<std::pair<const char*, int>, 12> kLeastCounts = {{
     {"refinement.max_iterations", 1},
     {"extraction.min_line_points", 3},
     {"matching.max_candidates", 1},
     {"matching.max_calls", 1},
     {"estimation.max_iterations", 1},
+    {"survey_surfaces.most_points", 30},
+    {"survey_alignment.max_iterations", 1},
+    {"survey_tracking.local_keyframes", 1},
+    {"survey_loops.query_keyframes", 1},
+    {"survey_loops.target_keyframes", 1},
+    {"survey_loops.query_stride", 1},
+    {"survey_loops.target_stride", 1},
 }};
 
 /// What a number may be, and how to say so.

@@ -7,6 +7,10 @@
 #include "adit/geometry/result.hpp"
 #include "adit/localizer/localizer.hpp"
 #include "adit/map/line_map.hpp"
+#include "adit/survey/drive_options.hpp"
+#include "adit/survey/known_positions.hpp"
+#include "adit/survey/plan_difference.hpp"
+#include "adit/survey/wall_options.hpp"
 
 namespace adit {
 
@@ -25,6 +29,10 @@ struct ConsistencyChoice {
 struct Configuration {
   LocalizerSettings localizer;
   LineMapOptions map;
+  DriveSurveyOptions drive;  ///< of a survey, as are the next
+  WallOptions walls;
+  KnownPositionsOptions positions;
+  PlanDifferenceOptions changes;
 
   /// Names each table: `table(name, options, documentation)`, where options has a `visit` of its
   /// own. Two parts may share a table.
@@ -57,6 +65,16 @@ struct Configuration {
     table("places", self.localizer.places, "the index of places where a scanner may stand");
     table("relocation", self.localizer.relocation, "how a scan is looked for in the whole mine");
     table("likelihood", self.localizer.likelihood, "what a scan says of a pose found there");
+    table("survey_surfaces", self.drive.surface, "how scans become points of walls");
+    table("survey_alignment", self.drive.alignment, "how points are laid onto others");
+    table("survey_tracking", self.drive.tracking, "how a drive is followed from scan to scan");
+    table("survey_loops", self.drive.loops, "how places that were seen before are found");
+    table("survey_joint", self.drive.joint, "how all scans are laid onto each other");
+    table("survey_known_places", self.drive.known_places,
+          "how a drive is brought into the frame of a plan that is updated");
+    table("survey_walls", self.walls, "how walls are drawn");
+    table("survey_positions", self.positions, "how scans from known positions are turned");
+    table("survey_changes", self.changes, "when a plan and a survey are the same");
   }
 };
 

@@ -8,7 +8,7 @@
 namespace adit {
 namespace {
 
-constexpr int kBoundedKeys = 33;  // that cannot be 0
+constexpr int kBoundedKeys = 58;  // that cannot be 0
 
 LoadedConfiguration loaded(std::string_view text) {
   auto read = parse_configuration(text, "c.toml");
@@ -149,7 +149,25 @@ TEST(Configuration, SomeKeysCannotBeZero) {
                            "extraction.max_operator_m",
                            "extraction.grazing_rad",
                            "extraction.min_corner_turn_rad",
-                           "extraction.corner_chi_square"}) {
+                           "extraction.corner_chi_square",
+                           "survey_alignment.scale_m",
+                           "survey_alignment.wall_sigma_m",
+                           "survey_alignment.shared_error_points",
+                           "survey_loops.first_limit_m",
+                           "survey_loops.closure_sigma_m",
+                           "survey_loops.closure_sigma_rad",
+                           "survey_joint.sight_m",
+                           "survey_joint.anchor_sigma_m",
+                           "survey_joint.anchor_sigma_rad",
+                           "survey_joint.pair_sigma_m",
+                           "survey_joint.pair_sigma_rad",
+                           "survey_known_places.apart_m",
+                           "survey_known_places.plan_sigma_m",
+                           "survey_changes.step_m",
+                           "survey_walls.cell_m",
+                           "survey_walls.merge_m",
+                           "survey_walls.smooth_m",
+                           "survey_walls.tolerance_m"}) {
     const std::string key = name;
     for (const char* value : {"0", "0.0", "-0.0", "-1", "nan", "\"1\""})
       EXPECT_EQ(error_of("\n" + key + " = " + value + "\n"),
@@ -160,7 +178,14 @@ TEST(Configuration, SomeKeysCannotBeZero) {
                                     {"refinement.max_iterations", 1},
                                     {"matching.max_calls", 1},
                                     {"matching.max_candidates", 1},
-                                    {"estimation.max_iterations", 1}}) {
+                                    {"estimation.max_iterations", 1},
+                                    {"survey_surfaces.most_points", 30},
+                                    {"survey_alignment.max_iterations", 1},
+                                    {"survey_tracking.local_keyframes", 1},
+                                    {"survey_loops.query_keyframes", 1},
+                                    {"survey_loops.target_keyframes", 1},
+                                    {"survey_loops.query_stride", 1},
+                                    {"survey_loops.target_stride", 1}}) {
     const std::string key = name;
     EXPECT_EQ(
         error_of("\n" + key + " = " + std::to_string(least - 1) + "\n"),

@@ -9,6 +9,7 @@
 #include "adit/localizer/settings.hpp"
 #include "adit/matching/matching.hpp"
 #include "adit/scan/scanner_model.hpp"
+#include "adit/survey/known_positions.hpp"
 
 namespace adit {
 
@@ -41,6 +42,14 @@ struct EnumNames<Estimator> {
       {{"features", Estimator::features},
        {"points", Estimator::points},
        {"full", Estimator::full}}};
+};
+
+template <>
+struct EnumNames<GivenHeadings> {
+  static constexpr std::array<std::pair<const char*, GivenHeadings>, 3> values = {
+      {{"automatic", GivenHeadings::automatic},
+       {"none", GivenHeadings::none},
+       {"all", GivenHeadings::all}}};
 };
 
 /// The word for a value.

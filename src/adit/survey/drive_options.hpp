@@ -1,0 +1,259 @@
+#pragma once
+
+namespace adit {
+
+/// How scans become points of walls.
+struct SurfaceOptions {
+  int most_points = 360;
+  double spacing_m = 0.03;
+  double least_reach_m = 0.12;
+  double reach_spacings = 2.5;
+  double reach_sigmas = 6.0;
+  double flat_sigmas = 3.0;
+  double roughness_m = 0.02;
+  double grazing_rad = 0.12;
+
+  template <class Self, class Field>
+  static void visit(Self& self, Field&& field) {
+    field("most_points", self.most_points, "of a scan with more returns every so manieth is taken");
+    field("spacing_m", self.spacing_m,
+          "of points on one wall that lie nearer than this one is taken (m)");
+    field("least_reach_m", self.least_reach_m,
+          "a point's normal is that of its neighbours up to this far (m) ...");
+    field("reach_spacings", self.reach_spacings, "... or so many times as far as the next one ...");
+    field("reach_sigmas", self.reach_sigmas, "... or so many sigmas of the beam");
+    field("flat_sigmas", self.flat_sigmas,
+          "neighbours that lie about their line by more than so many sigmas show no normal");
+    field("roughness_m", self.roughness_m,
+          "how far walls lie about a straight line over that reach, one sigma (m)");
+    field("grazing_rad", self.grazing_rad,
+          "neighbours belong together down to this angle between beam and wall (rad)");
+  }
+};
+
+/// How points of walls are laid onto others.
+struct AlignmentOptions {
+  int max_iterations = 12;
+  double first_reach_m = 0.3;
+  double last_reach_m = 0.12;
+  double scale_m = 0.03;
+  double wall_sigma_m = 0.02;
+  double shared_error_points = 5.0;
+  double slides_ratio = 0.01;
+  double holds_ratio = 0.03;
+
+  template <class Self, class Field>
+  static void visit(Self& self, Field&& field) {
+    field("max_iterations", self.max_iterations, "steps of one alignment, at most");
+    field("first_reach_m", self.first_reach_m,
+          "at first points belong to walls no farther than this (m) ...");
+    field("last_reach_m", self.last_reach_m, "... at last no farther than this (m)");
+    field("scale_m", self.scale_m,
+          "points farther from their wall than this weigh less than half (m)");
+    field("wall_sigma_m", self.wall_sigma_m,
+          "how far walls lie from where other scans saw them, beside the noise of beams, one sigma "
+          "(m)");
+    field("shared_error_points", self.shared_error_points,
+          "so many points err alike: together they tell as much as one alone");
+    field("slides_ratio", self.slides_ratio,
+          "walls that hold a pose in its weakest direction to no more than this part of the "
+          "strongest do not hold it there: the noise of their normals does as much ...");
+    field("holds_ratio", self.holds_ratio, "... and from this part on they do");
+  }
+};
+
+/// How a drive is followed from scan to scan.
+struct TrackingStepOptions {
+  double step_m = 0.02;
+  double step_rad = 0.01;
+  int most_skipped = 1;
+  double keyframe_m = 0.35;
+  double keyframe_rad = 0.30;
+  int local_keyframes = 14;
+  double search_m = 0.2;
+  double search_rad = 0.2;
+  double search_sigmas = 3.0;
+  double odometry_doubt = 4.0;
+  double slip_m = 0.01;
+  double slip_rad = 0.005;
+  double most_odometry_score = 0.15;
+  double most_search_m = 1.5;
+  double most_search_rad = 0.7;
+  double good_score = 0.55;
+  double better_share = 0.15;
+  double surprising_sigmas = 6.0;
+  double surprising_share = 0.75;
+  double least_share = 0.35;
+  int least_matched = 15;
+
+  template <class Self, class Field>
+  static void visit(Self& self, Field&& field) {
+    field("step_m", self.step_m, "a scan is laid onto the last ones after a move of this (m) ...");
+    field("step_rad", self.step_rad, "... or a turn of this (rad) ...");
+    field("most_skipped", self.most_skipped,
+          "... and where dead reckoning reports none, after so many scans");
+    field("keyframe_m", self.keyframe_m,
+          "a scan is kept for the plan after a move of this (m) ...");
+    field("keyframe_rad", self.keyframe_rad, "... or a turn of this (rad)");
+    field("local_keyframes", self.local_keyframes, "scans are laid onto so many kept ones");
+    field("search_m", self.search_m, "a scan is looked for around dead reckoning this far (m) ...");
+    field("search_rad", self.search_rad, "... and turned by this (rad) ...");
+    field("search_sigmas", self.search_sigmas, "... or so many sigmas of dead reckoning, if more");
+    field("odometry_doubt", self.odometry_doubt,
+          "in the alignment dead reckoning is taken to be so many times worse than stated: what "
+          "scans tell, they shall tell alone");
+    field("slip_m", self.slip_m,
+          "a machine may move so far between two scans and not report it, one sigma (m) ...");
+    field("slip_rad", self.slip_rad, "... and turn (rad)");
+    field("most_search_m", self.most_search_m,
+          "where nothing fits it is looked for again, as far as this (m) ...");
+    field("most_search_rad", self.most_search_rad, "... and turned by this (rad)");
+    field("most_odometry_score", self.most_odometry_score,
+          "... where to go with dead reckoning counts no more than this mean part of points that "
+          "hit walls");
+    field("good_score", self.good_score, "a scan fits whose points hit walls to this mean part");
+    field("better_share", self.better_share,
+          "found farther off it must find walls for so much more of its points");
+    field("surprising_sigmas", self.surprising_sigmas,
+          "where dead reckoning would be wrong by more than so many sigmas ...");
+    field("surprising_share", self.surprising_share,
+          "... this share of the points must find walls");
+    field("least_share", self.least_share,
+          "a scan of whose points a smaller share finds walls is placed by dead reckoning");
+    field("least_matched", self.least_matched, "and one of whose points fewer find walls");
+  }
+};
+
+/// Where and how places that were seen before are looked for.
+struct LoopOptions {
+  int query_keyframes = 5;
+  int query_stride = 3;
+  int target_keyframes = 13;
+  int target_stride = 6;
+  int least_apart = 25;
+  int most_targets = 5;
+  double sight_m = 6.0;
+  double first_limit_m = 0.5;
+  double last_limit_m = 8.0;
+  double window_sigmas = 3.0;
+  double least_score = 0.6;
+  double rival_margin = 0.07;
+  double rival_m = 1.0;
+  double rival_rad = 0.4;
+  double surroundings_m = 40.0;
+  double likeness_margin = 0.1;
+  double least_hits = 0.45;
+  double most_contradiction = 0.2;
+  double least_stiffness = 0.03;
+  int least_support = 2;
+  double support_m = 0.3;
+  double consistent_chi_square = 11.3;
+  double closure_sigma_m = 0.04;
+  double closure_sigma_rad = 0.008;
+
+  template <class Self, class Field>
+  static void visit(Self& self, Field&& field) {
+    field("query_keyframes", self.query_keyframes, "so many kept scans are looked for together");
+    field("query_stride", self.query_stride, "around every so manieth");
+    field("target_keyframes", self.target_keyframes, "among so many others together");
+    field("target_stride", self.target_stride, "around every so manieth");
+    field("least_apart", self.least_apart, "that were kept so many before, at least");
+    field("most_targets", self.most_targets, "at so many places, at most");
+    field("sight_m", self.sight_m, "two places may show the same walls up to this far apart (m)");
+    field("first_limit_m", self.first_limit_m,
+          "first where the drift since is no more than this, one sigma (m)");
+    field("last_limit_m", self.last_limit_m, "then twice that, up to this (m)");
+    field("window_sigmas", self.window_sigmas, "so many sigmas of the drift around");
+    field("least_score", self.least_score, "points hit walls to this mean part, at least");
+    field("rival_margin", self.rival_margin,
+          "and by so much more than anywhere else within the window, ...");
+    field("rival_m", self.rival_m, "... where elsewhere is this far off (m) ...");
+    field("rival_rad", self.rival_rad, "... or turned by this (rad)");
+    field("surroundings_m", self.surroundings_m,
+          "the way before and after a place on which its likeness is looked for (m)");
+    field("likeness_margin", self.likeness_margin,
+          "and as far off as the window is wide, points must hit walls less by so much");
+    field("least_hits", self.least_hits, "this share of the points must hit walls");
+    field("most_contradiction", self.most_contradiction,
+          "of the points where beams had been, no more than this share where they had passed");
+    field("least_stiffness", self.least_stiffness,
+          "walls must hold the pose in its weakest direction to this part of the strongest");
+    field("least_support", self.least_support,
+          "a place is believed to be another seen before only if so many others agree with it");
+    field("support_m", self.support_m,
+          "who agrees must have been taken so near in time that drift between them is less (m)");
+    field("consistent_chi_square", self.consistent_chi_square,
+          "two agree up to this error (three degrees of freedom, 99 %)");
+    field("closure_sigma_m", self.closure_sigma_m,
+          "how far off such a place may be, one sigma (m)");
+    field("closure_sigma_rad", self.closure_sigma_rad, "and its heading (rad)");
+  }
+};
+
+/// How all scans are laid onto each other at the end.
+struct JointOptions {
+  int rounds = 4;
+  int neighbours = 16;
+  int in_time = 4;
+  int most_pairs = 60000;
+  double sight_m = 8.0;
+  double least_share = 0.4;
+  double believed_sigma_m = 0.2;
+  double reach_m = 0.2;
+  double anchor_sigma_m = 0.05;
+  double anchor_sigma_rad = 0.02;
+  double pair_sigma_m = 0.015;
+  double pair_sigma_rad = 0.004;
+  double robust_sigmas = 2.0;
+
+  template <class Self, class Field>
+  static void visit(Self& self, Field&& field) {
+    field("rounds", self.rounds, "how often all scans are laid onto each other and solved for");
+    field("neighbours", self.neighbours, "a scan is laid onto so many others, at most, ...");
+    field("in_time", self.in_time, "... so many of them the ones before it, ...");
+    field("most_pairs", self.most_pairs,
+          "of long drives each onto fewer, so that there are no more pairs than this in all");
+    field("sight_m", self.sight_m, "... taken no farther from it than this (m)");
+    field("least_share", self.least_share, "that show at least this share of its points");
+    field("believed_sigma_m", self.believed_sigma_m,
+          "against which its pose is known better than this, one sigma (m)");
+    field("reach_m", self.reach_m, "points belong to walls no farther than this (m)");
+    field("anchor_sigma_m", self.anchor_sigma_m,
+          "a pair is moved by no more than this where walls leave it free, one sigma (m)");
+    field("anchor_sigma_rad", self.anchor_sigma_rad, "and turned (rad)");
+    field("pair_sigma_m", self.pair_sigma_m,
+          "how well two scans tell each other's place at best, one sigma (m)");
+    field("pair_sigma_rad", self.pair_sigma_rad, "and heading (rad)");
+    field("robust_sigmas", self.robust_sigmas, "pairs that disagree by more than this pull less");
+  }
+};
+
+/// How a drive is brought into the frame of a plan.
+struct KnownPlacesOptions {
+  double apart_m = 3.0;
+  double robust_sigmas = 2.0;
+  double plan_sigma_m = 0.05;
+
+  template <class Self, class Field>
+  static void visit(Self& self, Field&& field) {
+    field("apart_m", self.apart_m,
+          "known places nearer to each other on the way than this err alike: together they tell as "
+          "much as one alone (m)");
+    field("robust_sigmas", self.robust_sigmas,
+          "known places that the drive contradicts by more than this pull less");
+    field("plan_sigma_m", self.plan_sigma_m,
+          "how far a known place may be off beside what it states, one sigma (m)");
+  }
+};
+
+/// All that a survey of a drive can be told.
+struct DriveSurveyOptions {
+  SurfaceOptions surface;
+  AlignmentOptions alignment;
+  TrackingStepOptions tracking;
+  LoopOptions loops;
+  JointOptions joint;
+  KnownPlacesOptions known_places;
+};
+
+}  // namespace adit

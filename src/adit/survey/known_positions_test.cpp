@@ -1,0 +1,167 @@
+#include "adit/survey/known_positions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "adit/simulation/mine_worlds.hpp"
+#include "adit/simulation/tilted_scanner.hpp"
+
+namespace adit {
+namespace {
+
+struct Stations {
+  std::vector<Segment> walls;
+  std::vector<PositionedScan> scans;
+  std::vector<double> headings;
+};
+
+/// Two scans at each of eight stations of a rough panel, each scan with a heading of its own.
+Stations stations_in_a_panel() {
+  Stations out;
+  PanelOptions options;
+  options.rows = 2;
+  options.columns = 2;
+  options.path_step_m = 2.0;
+  const World world = panel(options, 11);
+  out.walls = world.walls;
+  const RayCaster caster(world.walls);
+  Random random(7);
+  for (std::size_t s = 0; s < 8; ++s) {
+    for (int k = 0; k < 2; ++k) {
+      Pose2 pose = world.path[s];
+      pose.theta = random.uniform(-kPi, kPi);
+      const Tilt tilt{radians(1.0) * random.normal(), radians(1.0) * random.normal()};
+      out.scans.push_back({simulate_tilted_scan(caster, pose, sick(), tilt, {}, random),
+                           pose.translation(), std::nullopt});
+      out.headings.push_back(pose.theta);
+    }
+  }
+  return out;
+}
+
+std::vector<LaserScan> scans_at(const std::vector<double>& stamps) {
+  std::vector<LaserScan> scans(stamps.size());
+  for (std::size_t i = 0; i < stamps.size(); ++i) scans[i].stamp = stamps[i];
+  return scans;
+}
+
+void expect_headings(const Stations& truth, const KnownPositionsSurvey& survey, double within) {
+  for (std::size_t i = 0; i < truth.headings.size(); ++i) {
+    EXPECT_LT(std::abs(angle_between(truth.headings[i], survey.scans[i].map_from_vehicle.theta)),
+              within);
+  }
+}
+
+/// How much wall was found (m); each must lie within `near_m` of a true one.
+double length_near_truth(const Stations& truth, const WallMap& walls, double near_m) {
+  double length = 0.0;
+  for (const Segment& s : walls.segments()) {
+    double least = 1e9;
+    for (const Segment& w : truth.walls) {
+      least = std::min(least, distance(w, 0.5 * (s.a + s.b)));
+    }
+    EXPECT_LT(least, near_m);
+    length += s.length();
+  }
+  return length;
+}
+
+TEST(SurveyKnownPositions, FindsHeadingsAndWallsWithoutAnyHeadingGiven) {
+  const Stations stations = stations_in_a_panel();
+  const auto survey = survey_known_positions(stations.scans, sick().model);
+  ASSERT_TRUE(survey.has_value());
+  EXPECT_EQ(survey->stations.size(), 8u);
+  expect_headings(stations, *survey, radians(0.5));
+  for (std::size_t i = 0; i < stations.scans.size(); ++i) {
+    EXPECT_EQ(survey->scans[i].map_from_vehicle.translation(), stations.scans[i].position);
+  }
+  EXPECT_GT(length_near_truth(stations, survey->walls, 0.15), 40.0);
+}
+
+TEST(SurveyKnownPositions, TakesPositionsThatErrByCentimetres) {
+  Stations stations = stations_in_a_panel();
+  Random random(3);
+  for (std::size_t i = 0; i < stations.scans.size(); i += 2) {
+    const Vector2d error(0.03 * random.normal(), 0.03 * random.normal());
+    stations.scans[i].position += error;
+    stations.scans[i + 1].position += error;
+  }
+  const auto survey = survey_known_positions(stations.scans, sick().model);
+  ASSERT_TRUE(survey.has_value());
+  expect_headings(stations, *survey, radians(1.0));
+  EXPECT_GT(length_near_truth(stations, survey->walls, 0.25), 40.0);
+}
+
+TEST(SurveyKnownPositions, KeepsNearTheHeadingsThatAreGiven) {
+  Stations stations = stations_in_a_panel();
+  for (std::size_t i = 0; i < stations.scans.size(); ++i) {
+    stations.scans[i].heading = stations.headings[i] + (i % 2 == 0 ? 0.1 : -0.1);
+  }
+  const auto survey = survey_known_positions(stations.scans, sick().model);
+  ASSERT_TRUE(survey.has_value());
+  expect_headings(stations, *survey, radians(0.5));
+}
+
+TEST(SurveyKnownPositions, RefusesStationsThatShareNoWalls) {
+  Stations stations = stations_in_a_panel();
+  stations.scans.resize(4);
+  stations.scans[2].position.x() += 500.0;
+  stations.scans[3].position.x() += 500.0;
+  const auto survey = survey_known_positions(stations.scans, sick().model);
+  ASSERT_FALSE(survey.has_value());
+  EXPECT_NE(to_string(survey.error()).find("headings cannot be found"), std::string::npos);
+}
+
+TEST(SurveyKnownPositions, LeavesOutAStationThatNoOtherAgreesWith) {
+  Stations stations = stations_in_a_panel();
+  for (std::size_t i = 14; i < 16; ++i) stations.scans[i].position.y() += 500.0;
+  const auto survey = survey_known_positions(stations.scans, sick().model);
+  ASSERT_TRUE(survey.has_value());
+  EXPECT_FALSE(survey->stations.back().placed);
+  EXPECT_TRUE(survey->stations.front().placed);
+  EXPECT_GT(length_near_truth(stations, survey->walls, 0.15), 40.0);
+}
+
+TEST(SurveyKnownPositions, RefusesOneStation) {
+  Stations stations = stations_in_a_panel();
+  stations.scans.resize(2);
+  EXPECT_FALSE(survey_known_positions(stations.scans, sick().model).has_value());
+  EXPECT_FALSE(survey_known_positions({}, sick().model).has_value());
+}
+
+TEST(PlaceScans, TakesThePoseOfTheSameStamp) {
+  const std::vector<StampedPose> poses{{2.0, {3.0, 0.0, 0.5}}, {1.0, {1.0, 0.0, 0.1}}};
+  const auto placed = place_scans(scans_at({1.0, 2.0}), poses, GivenHeadings::automatic);
+  ASSERT_TRUE(placed.has_value());
+  EXPECT_EQ((*placed)[0].position.x(), 1.0);
+  EXPECT_EQ((*placed)[1].position.x(), 3.0);
+  EXPECT_EQ((*placed)[1].heading, 0.5);
+}
+
+TEST(PlaceScans, GivesAStationsScansItsPose) {
+  const std::vector<StampedPose> first{{0.0, {1.0, 0.0, 0.0}}, {3.0, {2.0, 0.0, 0.0}}};
+  const auto after_first =
+      place_scans(scans_at({0.0, 1.0, 2.0, 3.0, 4.0}), first, GivenHeadings::automatic);
+  ASSERT_TRUE(after_first.has_value());
+  const std::vector<double> expected{1.0, 1.0, 1.0, 2.0, 2.0};
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ((*after_first)[i].position.x(), expected[i]);
+    EXPECT_FALSE((*after_first)[i].heading.has_value());  // all alike: positions alone
+  }
+  const std::vector<StampedPose> last{{2.0, {1.0, 0.0, 0.0}}, {4.0, {2.0, 0.0, 0.0}}};
+  const auto before_last =
+      place_scans(scans_at({0.0, 1.0, 2.0, 3.0, 4.0}), last, GivenHeadings::none);
+  ASSERT_TRUE(before_last.has_value());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ((*before_last)[i].position.x(), expected[i]);
+  }
+}
+
+TEST(PlaceScans, NeedsPosesAndScans) {
+  EXPECT_FALSE(place_scans(scans_at({1.0}), {}, GivenHeadings::none).has_value());
+  EXPECT_FALSE(place_scans({}, std::vector<StampedPose>(1), GivenHeadings::none).has_value());
+}
+
+}  // namespace
+}  // namespace adit

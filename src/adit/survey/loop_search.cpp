@@ -1,0 +1,275 @@
+#include "adit/survey/loop_search.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "adit/relocation/share_out.hpp"
+
+namespace adit {
+namespace {
+
+/// One place to be compared with another.
+struct Candidate {
+  std::size_t query = 0;
+  RelativeSigma sigma;
+};
+
+std::size_t apart(std::size_t a, std::size_t b) { return a > b ? a - b : b - a; }
+
+/// Keyframes around one, as seen from it.
+std::vector<PlacedShape> around(const LoopScene& scene, std::size_t middle, int count) {
+  const std::size_t half = static_cast<std::size_t>(count / 2);
+  const std::size_t begin = middle > half ? middle - half : 0;
+  const std::size_t end = std::min(scene.keyframes.size(), middle + half + 1);
+  const Pose2 middle_from_map = inverse(scene.poses[middle]);
+  std::vector<PlacedShape> shapes;
+  for (std::size_t i = begin; i < end; ++i) {
+    shapes.push_back({&scene.keyframes[i].shape, middle_from_map * scene.poses[i]});
+  }
+  return shapes;
+}
+
+bool is_known(std::span<const Closure> known, std::size_t target, std::size_t query,
+              const LoopOptions& options) {
+  return std::any_of(known.begin(), known.end(), [&](const Closure& c) {
+    return apart(c.to, query) < static_cast<std::size_t>(options.query_stride) &&
+           apart(c.from, target) <= static_cast<std::size_t>(options.target_keyframes);
+  });
+}
+
+/// Keyframes up to `way_m` before and after one, as seen from it.
+std::vector<PlacedShape> stretch_around(const LoopScene& scene, std::size_t middle, double way_m) {
+  const auto step = [&](std::size_t i) {
+    return (scene.poses[i].translation() - scene.poses[i + 1].translation()).norm();
+  };
+  std::size_t begin = middle;
+  for (double way = 0.0; begin > 0; --begin) {
+    if ((way += step(begin - 1)) > way_m) break;
+  }
+  std::size_t end = middle + 1;
+  for (double way = 0.0; end < scene.keyframes.size(); ++end) {
+    if ((way += step(end - 1)) > way_m) break;
+  }
+  const Pose2 middle_from_map = inverse(scene.poses[middle]);
+  std::vector<PlacedShape> shapes;
+  for (std::size_t i = begin; i < end; ++i) {
+    shapes.push_back({&scene.keyframes[i].shape, middle_from_map * scene.poses[i]});
+  }
+  return shapes;
+}
+
+/// Compares one target with all its queries.
+class TargetSearch {
+ public:
+  TargetSearch(const LoopScene& scene, const LoopOptions& options,
+               const AlignmentOptions& alignment)
+      : scene_(scene), options_(options), alignment_(alignment) {}
+
+  std::vector<Closure> search(std::size_t target, std::span<const Candidate> candidates) {
+    std::vector<Closure> found;
+    if (candidates.empty()) return found;
+    const std::vector<PlacedShape> shapes = around(scene_, target, options_.target_keyframes);
+    field_.build(shapes, true, field_options_);
+    map_.clear();
+    for (const PlacedShape& s : shapes) {
+      map_.add(s.shape->points, RigidTransform(s.frame_from_shape));
+    }
+    map_.index();
+    surroundings_.reset();
+    for (const Candidate& candidate : candidates) {
+      if (auto closure = compare(target, candidate)) found.push_back(*closure);
+    }
+    return found;
+  }
+
+ private:
+  std::optional<Closure> compare(std::size_t target, const Candidate& candidate) {
+    const std::vector<PlacedShape> query =
+        around(scene_, candidate.query, options_.query_keyframes);
+    search_.set_points(query, field_);
+    SearchWindow window;
+    window.middle = inverse(scene_.poses[target]) * scene_.poses[candidate.query];
+    window.sigma_m = candidate.sigma.metres + 0.05;
+    window.sigma_rad = candidate.sigma.radians + 0.01;
+    window.reach_m = options_.window_sigmas * window.sigma_m;
+    window.reach_rad = std::min(kPi, options_.window_sigmas * window.sigma_rad);
+    const auto best = search_.best(field_, window, options_.least_score - 0.1);
+    if (!best || best->score < options_.least_score) return std::nullopt;
+    const auto rival = search_.best(field_, window, best->with_prior - options_.rival_margin,
+                                    &best->pose, options_.rival_m, options_.rival_rad);
+    if (rival) return std::nullopt;
+    if (has_likeness(target, *best, window)) return std::nullopt;
+    return refine(target, candidate.query, query, *best);
+  }
+
+  /// Whether the surroundings repeat themselves at a distance that the window does not exclude:
+  /// then the place may as well be one that was never seen before.
+  bool has_likeness(std::size_t target, const SearchPeak& peak, const SearchWindow& window) {
+    if (window.reach_m < options_.rival_m) return false;
+    if (!surroundings_) {
+      FieldOptions wide = field_options_;
+      wide.most_reach_m += options_.surroundings_m;
+      surroundings_.emplace();
+      surroundings_->build(stretch_around(scene_, target, options_.surroundings_m), true, wide);
+    }
+    SearchWindow around_it = window;
+    around_it.middle = peak.pose;
+    around_it.reach_m = std::min(options_.surroundings_m, 2.0 * window.reach_m);
+    around_it.most_cost = 0.0;
+    return search_
+        .best(*surroundings_, around_it, peak.score - options_.likeness_margin, &peak.pose,
+              options_.rival_m, options_.rival_rad)
+        .has_value();
+  }
+
+  std::optional<Closure> refine(std::size_t target, std::size_t query,
+                                std::span<const PlacedShape> shapes, const SearchPeak& peak) {
+    std::vector<SurfacePoint> points;
+    for (const PlacedShape& s : shapes) {
+      const RigidTransform carry_by(s.frame_from_shape);
+      for (const SurfacePoint& p : s.shape->points) points.push_back(carry(carry_by, p));
+    }
+    PosePrior prior{peak.pose, Matrix3d::Zero()};
+    prior.information.diagonal() << 25.0, 25.0, 100.0;
+    const Alignment fit =
+        align(points, map_, prior, peak.pose, scene_.keyframes[query].beam_sigma_m, alignment_);
+    if (!explains(points, fit.target_from_source)) return std::nullopt;
+    const Matrix2d across = fit.information.topLeftCorner<2, 2>();
+    const Eigen::SelfAdjointEigenSolver<Matrix2d> stiffness(across);
+    if (!(stiffness.eigenvalues()(0) > 0.0) ||
+        stiffness.eigenvalues()(0) < options_.least_stiffness * stiffness.eigenvalues()(1)) {
+      return std::nullopt;
+    }
+    const Vector3d off = difference(peak.pose, fit.target_from_source);
+    if (off.head<2>().norm() > 0.4 || std::abs(off.z()) > 0.15) return std::nullopt;
+    if (!fit.information.allFinite() || fit.information(2, 2) <= 0.0) return std::nullopt;
+    Matrix3d covariance =
+        (fit.information + Vector3d(1.0, 1.0, 1.0).asDiagonal().toDenseMatrix()).inverse();
+    covariance.diagonal().array() +=
+        Vector3d(options_.closure_sigma_m, options_.closure_sigma_m, options_.closure_sigma_rad)
+            .array()
+            .square();
+    return Closure{target, query, fit.target_from_source, covariance.inverse(), peak.score};
+  }
+
+  /// Whether enough points lie on walls, and few where beams had passed.
+  bool explains(std::span<const SurfacePoint> points, const Pose2& target_from_query) const {
+    const RigidTransform carry_by(target_from_query);
+    const std::uint8_t unseen = field_.at(0, -1, -1);
+    int hits = 0;
+    int passed = 0;
+    for (const SurfacePoint& p : points) {
+      const Vector2d point = carry_by.point(p.point.cast<double>());
+      const std::uint8_t value = field_.at(0, field_.column(point.x()), field_.row(point.y()));
+      hits += value >= 128;
+      passed += value < unseen / 2;
+    }
+    return hits >= options_.least_hits * static_cast<double>(points.size()) &&
+           passed <= options_.most_contradiction * (hits + passed);
+  }
+
+  const LoopScene& scene_;
+  const LoopOptions& options_;
+  const AlignmentOptions& alignment_;
+  FieldOptions field_options_;
+  EvidenceField field_;
+  std::optional<EvidenceField> surroundings_;  // of the target, where they were asked for
+  SurfaceMap map_;
+  CorrelativeSearch search_;
+};
+
+/// A target near enough to a query to be compared with it.
+struct Offer {
+  std::size_t target = 0;  // place in the list
+  std::size_t query = 0;
+  double distance = 0.0;
+  RelativeSigma sigma;
+};
+
+/// All queries that may have seen what a target shows.
+std::vector<Offer> offers_of(const LoopScene& scene, std::size_t target, std::size_t place,
+                             const LoopOptions& options) {
+  const std::vector<RelativeSigma> sigmas = scene.drift.from(target, scene.poses, scene.limit_m);
+  const std::size_t stride = static_cast<std::size_t>(std::max(1, options.query_stride));
+  const std::size_t first = target + static_cast<std::size_t>(options.least_apart);
+  std::vector<Offer> offers;
+  for (std::size_t q = (first + stride - 1) / stride * stride; q < scene.poses.size();
+       q += stride) {
+    if (!sigmas[q].known) continue;
+    const double distance =
+        (scene.poses[target].translation() - scene.poses[q].translation()).norm();
+    if (distance > options.sight_m + options.window_sigmas * sigmas[q].metres) continue;
+    offers.push_back({place, q, distance, sigmas[q]});
+  }
+  return offers;
+}
+
+/// Of one query's offers, by target, the nearest of each pass, and of those the nearest few.
+void keep_nearest(std::vector<Offer>& offers, const LoopOptions& options) {
+  constexpr std::size_t kSamePass = 3;  // targets
+  std::vector<Offer> kept;
+  std::size_t last = 0;
+  for (const Offer& offer : offers) {
+    const bool same_pass = !kept.empty() && offer.target - last <= kSamePass;
+    last = offer.target;
+    if (!same_pass) {
+      kept.push_back(offer);
+    } else if (offer.distance < kept.back().distance) {
+      kept.back() = offer;
+    }
+  }
+  std::stable_sort(kept.begin(), kept.end(), [](const Offer& a, const Offer& b) {
+    return a.distance + a.sigma.metres < b.distance + b.sigma.metres;
+  });
+  const std::size_t most = static_cast<std::size_t>(std::max(1, options.most_targets));
+  if (kept.size() > most) kept.resize(most);
+  offers = std::move(kept);
+}
+
+/// What is to be compared, as lists by target.
+std::vector<std::vector<Candidate>> choose_pairs(const LoopScene& scene,
+                                                 std::span<const std::size_t> targets,
+                                                 std::span<const Closure> known,
+                                                 const LoopOptions& options, int threads) {
+  std::vector<std::vector<Offer>> by_target(targets.size());
+  share_out(targets.size(), threads, [&] {
+    return [&](std::size_t t) { by_target[t] = offers_of(scene, targets[t], t, options); };
+  });
+  std::vector<std::vector<Offer>> by_query(scene.poses.size());
+  for (const auto& offers : by_target) {
+    for (const Offer& offer : offers) by_query[offer.query].push_back(offer);
+  }
+  std::vector<std::vector<Candidate>> out(targets.size());
+  for (auto& offers : by_query) {
+    keep_nearest(offers, options);
+    for (const Offer& offer : offers) {
+      if (is_known(known, targets[offer.target], offer.query, options)) continue;
+      out[offer.target].push_back({offer.query, offer.sigma});
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Closure> search_loops(const LoopScene& scene, std::span<const Closure> known,
+                                  const LoopOptions& options, const AlignmentOptions& alignment,
+                                  int threads) {
+  std::vector<std::size_t> targets;
+  const std::size_t stride = static_cast<std::size_t>(std::max(1, options.target_stride));
+  for (std::size_t t = 0; t < scene.keyframes.size(); t += stride) targets.push_back(t);
+  const auto pairs = choose_pairs(scene, targets, known, options, threads);
+  std::vector<std::vector<Closure>> found(targets.size());
+  share_out(targets.size(), threads, [&] {
+    return [&, search = TargetSearch(scene, options, alignment)](std::size_t t) mutable {
+      found[t] = search.search(targets[t], pairs[t]);
+    };
+  });
+  std::vector<Closure> all;
+  for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());
+  return all;
+}
+
+}  // namespace adit

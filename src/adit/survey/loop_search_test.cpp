@@ -1,0 +1,107 @@
+#include "adit/survey/loop_search.hpp"
+
+#include <gtest/gtest.h>
+
+namespace adit {
+namespace {
+
+/// Keyframes a metre apart along a way that comes back beside itself; nothing is seen.
+struct Chain {
+  std::vector<Keyframe> keyframes;
+  std::vector<Pose2> poses;
+
+  explicit Chain(std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      Keyframe k;
+      const bool back = i >= count / 2;
+      k.pose = {static_cast<double>(back ? count - 1 - i : i), back ? 1.0 : 0.0, 0.0};
+      if (i > 0) {
+        k.previous_from_this = inverse(keyframes.back().pose) * k.pose;
+        k.odometry = k.previous_from_this;
+        k.tracked_information.diagonal() << 1e4, 1e4, 1e6;
+        k.odometry_covariance.diagonal() << 0.01, 0.01, 0.01;
+      }
+      poses.push_back(k.pose);
+      keyframes.push_back(k);
+    }
+  }
+};
+
+/// A closure that finds the map displaced by `off`.
+Closure closure(const Chain& chain, std::size_t from, std::size_t to, const Vector2d& off) {
+  const Pose2 seen{chain.poses[to].x + off.x(), chain.poses[to].y + off.y(), 0.0};
+  Closure c;
+  c.from = from;
+  c.to = to;
+  c.from_to = inverse(chain.poses[from]) * seen;
+  c.information.diagonal() << 400.0, 400.0, 1e4;
+  return c;
+}
+
+std::vector<PoseConstraint> constraints_of(const Chain& chain) {
+  std::vector<PoseConstraint> out;
+  for (std::size_t i = 1; i < chain.keyframes.size(); ++i) {
+    out.push_back({i - 1, i, chain.keyframes[i].previous_from_this,
+                   chain.keyframes[i].tracked_information, 0.0});
+  }
+  return out;
+}
+
+class ConsistentSet : public testing::Test {
+ protected:
+  ConsistentSet() : chain_(60), drift_(60, constraints_of(chain_)) {}
+  std::vector<Closure> accepted(const std::vector<Closure>& candidates) const {
+    const LoopScene scene{chain_.keyframes, chain_.poses, drift_, 2.0};
+    return consistent_set(scene, candidates, {}, LoopOptions{});
+  }
+  Chain chain_;
+  DriftBound drift_;
+};
+
+TEST_F(ConsistentSet, RefusesAClosureThatStandsAlone) {
+  EXPECT_TRUE(accepted({closure(chain_, 10, 49, {0.3, 0.0})}).empty());
+}
+
+TEST_F(ConsistentSet, BelievesThoseThatAgree) {
+  const Vector2d drift(0.4, -0.2);
+  const auto set = accepted({closure(chain_, 10, 49, drift), closure(chain_, 8, 51, drift),
+                             closure(chain_, 6, 53, drift)});
+  EXPECT_EQ(set.size(), 3U);
+}
+
+TEST_F(ConsistentSet, RefusesTheOneThatContradictsThem) {
+  const Vector2d drift(0.4, -0.2);
+  const auto set = accepted({closure(chain_, 9, 50, {4.4, -0.2}), closure(chain_, 10, 49, drift),
+                             closure(chain_, 8, 51, drift), closure(chain_, 6, 53, drift)});
+  ASSERT_EQ(set.size(), 3U);
+  for (const Closure& c : set) EXPECT_NE(c.from, 9U);
+}
+
+TEST_F(ConsistentSet, RefusesThoseOfWhichNoTwoAgree) {
+  EXPECT_TRUE(accepted({closure(chain_, 10, 49, {0.4, 0.0}), closure(chain_, 8, 51, {-1.5, 0.0}),
+                        closure(chain_, 6, 53, {3.0, 0.0})})
+                  .empty());
+}
+
+TEST(DriftBound, GrowsAlongTheWayAndShrinksAcrossAClosure) {
+  const Chain chain(60);
+  std::vector<PoseConstraint> constraints = constraints_of(chain);
+  const DriftBound open(60, constraints);
+  const auto before = open.from(0, chain.poses, 100.0);
+  EXPECT_DOUBLE_EQ(before[0].metres, 0.0);
+  EXPECT_GT(before[59].metres, before[30].metres);
+  constraints.push_back({0, 59, inverse(chain.poses[0]) * chain.poses[59],
+                         Vector3d(1e4, 1e4, 1e6).asDiagonal(), 0.0});
+  const auto after = DriftBound(60, constraints).from(0, chain.poses, 100.0);
+  EXPECT_LT(after[59].metres, 0.1 * before[59].metres);
+}
+
+TEST(DriftBound, KnowsNothingBeyondItsLimit) {
+  const Chain chain(60);
+  const auto sigmas = DriftBound(60, constraints_of(chain)).from(0, chain.poses, 0.05);
+  EXPECT_TRUE(sigmas[1].known);
+  EXPECT_FALSE(sigmas[59].known);
+}
+
+}  // namespace
+}  // namespace adit

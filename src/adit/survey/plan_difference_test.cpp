@@ -1,0 +1,111 @@
+#include "adit/survey/plan_difference.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "adit/simulation/scanner.hpp"
+#include "adit/simulation/world.hpp"
+
+namespace adit {
+namespace {
+
+/// A corridor of 20 x 4 m with a niche from x = 8 to 12 behind its upper wall.
+std::vector<Segment> corridor(bool niche) {
+  if (!niche) {
+    return outline(std::vector<Vector2d>{{0.0, 0.0}, {20.0, 0.0}, {20.0, 4.0}, {0.0, 4.0}});
+  }
+  return outline(std::vector<Vector2d>{{0.0, 0.0},
+                                       {20.0, 0.0},
+                                       {20.0, 4.0},
+                                       {12.0, 4.0},
+                                       {12.0, 7.0},
+                                       {8.0, 7.0},
+                                       {8.0, 4.0},
+                                       {0.0, 4.0}});
+}
+
+std::vector<PosedScan> drive(const std::vector<Segment>& walls) {
+  Random random(2);
+  const RayCaster caster(walls);
+  std::vector<PosedScan> scans;
+  for (int i = 0; i < 60; ++i) {
+    const Pose2 pose{2.0 + 0.27 * i, 2.0, 0.3 * i};
+    scans.push_back({simulate_scan(caster, pose, sick(), random), pose, Matrix3d::Zero()});
+  }
+  return scans;
+}
+
+PlanDifference difference(const std::vector<Segment>& plan, const std::vector<Segment>& truth) {
+  const auto scans = drive(truth);
+  const WallMap walls = survey_walls(scans, sick().model);
+  return compare_with_plan(plan, walls, scans, sick().model);
+}
+
+int count(const PlanDifference& d, PlanChange change) {
+  return static_cast<int>(std::count_if(d.items.begin(), d.items.end(),
+                                        [&](const auto& item) { return item.change == change; }));
+}
+
+TEST(CompareWithPlan, FindsNothingWhereNothingChanged) {
+  const auto d = difference(corridor(false), corridor(false));
+  EXPECT_TRUE(d.items.empty());
+  EXPECT_GT(d.confirmed_m, 40.0);
+}
+
+TEST(CompareWithPlan, FindsANewCut) {
+  const auto d = difference(corridor(false), corridor(true));
+  ASSERT_EQ(count(d, PlanChange::gone), 1);
+  EXPECT_GE(count(d, PlanChange::cut), 1);
+  EXPECT_EQ(count(d, PlanChange::obstacle), 0);
+  for (const PlanChangeItem& item : d.items) {
+    if (item.change != PlanChange::gone) continue;
+    EXPECT_NEAR(item.length_m, 4.0, 0.6);
+    EXPECT_NEAR(item.removed.front().a.y(), 4.0, 1e-9);
+    EXPECT_GT(item.seen_through, 0.7);
+  }
+}
+
+TEST(CompareWithPlan, FindsAFallInTheOpenSpace) {
+  auto truth = corridor(false);
+  const auto heap =
+      outline(std::vector<Vector2d>{{9.0, 2.9}, {10.5, 2.9}, {10.5, 3.6}, {9.0, 3.6}});
+  truth.insert(truth.end(), heap.begin(), heap.end());
+  const auto d = difference(corridor(false), truth);
+  EXPECT_GE(count(d, PlanChange::obstacle), 1);
+  EXPECT_EQ(count(d, PlanChange::cut), 0);
+  EXPECT_EQ(count(d, PlanChange::gone), 0);
+}
+
+TEST(CompareWithPlan, FindsAWallThatMoved) {
+  auto plan = corridor(false);
+  plan[2] = {{20.0, 3.5}, {0.0, 3.5}};  // the wall was cut back by half a metre since
+  const auto d = difference(plan, corridor(false));
+  ASSERT_EQ(count(d, PlanChange::moved), 1);
+  const auto moved = std::find_if(d.items.begin(), d.items.end(), [](const auto& item) {
+    return item.change == PlanChange::moved;
+  });
+  EXPECT_NEAR(moved->offset_m, 0.5, 0.05);
+  ASSERT_FALSE(moved->added.empty());
+  EXPECT_NEAR(moved->added.front().a.y(), 4.0, 0.05);
+}
+
+TEST(ApplyChanges, ChangesWhatIsAcceptedAndNothingElse) {
+  const auto plan = corridor(false);
+  EXPECT_EQ(apply_changes(plan, {}).size(), plan.size());
+  PlanChangeItem gone;
+  gone.plan_segment = 2;
+  gone.from_m = 8.0;
+  gone.to_m = 12.0;
+  PlanChangeItem cut;
+  cut.change = PlanChange::cut;
+  cut.added = {{{8.0, 7.0}, {12.0, 7.0}}};
+  const auto changed = apply_changes(plan, std::vector<PlanChangeItem>{gone, cut});
+  ASSERT_EQ(changed.size(), plan.size() + 2);
+  double length = 0.0;
+  for (const Segment& s : changed) length += s.length();
+  EXPECT_NEAR(length, 48.0 - 4.0 + 4.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace adit

@@ -1,0 +1,50 @@
+#include "adit/survey/wall_hits.hpp"
+
+#include <gtest/gtest.h>
+
+#include "adit/simulation/scanner.hpp"
+#include "adit/simulation/world.hpp"
+
+namespace adit {
+namespace {
+
+PosedScan scan_of(const std::vector<Segment>& walls, const Pose2& pose) {
+  Random random(1);
+  return {simulate_scan(RayCaster(walls), pose, sick(), random), pose, Matrix3d::Zero()};
+}
+
+TEST(WallHitFinder, GivesNormalsTowardsTheScanner) {
+  const std::vector<Segment> walls{{{-5.0, 3.0}, {5.0, 3.0}}};
+  WallHitFinder finder(sick().model, {});
+  const auto& hits = finder.find(scan_of(walls, {0.0, 0.0, 1.2}));
+  ASSERT_GT(hits.size(), 100u);
+  for (const WallHit& hit : hits) {
+    EXPECT_NEAR(hit.point.y(), 3.0, 0.1);
+    EXPECT_LT(hit.normal.y(), -0.9);
+  }
+}
+
+TEST(WallHitFinder, LeavesOutBeamsWithoutNeighbours) {
+  // A post one beam wide far before nothing.
+  const std::vector<Segment> post{{{4.0, -0.01}, {4.0, 0.01}}};
+  WallHitFinder finder(sick().model, {});
+  EXPECT_TRUE(finder.find(scan_of(post, {0.0, 0.0, 0.0})).empty());
+}
+
+TEST(WallHitFinder, CountsTheHeadingsErrorMoreTheFartherTheWall) {
+  const std::vector<Segment> walls{{{-20.0, 3.0}, {20.0, 3.0}}};
+  PosedScan posed = scan_of(walls, {0.0, 0.0, 1.2});
+  posed.covariance(2, 2) = 1e-4;
+  WallHitFinder finder(sick().model, {});
+  double near = 0.0, far = 0.0;
+  for (const WallHit& hit : finder.find(posed)) {
+    if (std::abs(hit.point.x()) < 0.5) near = std::max(near, hit.pose_variance);
+    if (hit.point.x() > 8.0) far = std::max(far, hit.pose_variance);
+  }
+  EXPECT_GT(near, 0.0);
+  EXPECT_GT(far, 0.5 * 64.0 * 1e-4);
+  EXPECT_LT(near, 0.1 * far);
+}
+
+}  // namespace
+}  // namespace adit
