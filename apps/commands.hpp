@@ -61,6 +61,21 @@ struct EvaluateArguments {
   bool json = false;
 };
 
+struct SurveyArguments {
+  std::string log;
+  std::string poses;                 ///< known positions; empty: there are none
+  std::string update;                ///< a plan to compare with; empty: none
+  std::string apply;                 ///< which changes: "all" or numbers; empty: none
+  std::optional<std::string> start;  ///< in that plan: x,y,heading in degrees
+  std::string trajectory;            ///< where to write the poses; empty: nowhere, as the next
+  std::string walls;
+  std::string report;
+  std::string picture;
+  std::optional<int> threads;
+  std::string config;
+  std::string output;
+};
+
 struct MapArguments {
   std::string plan;
   std::string output;
@@ -92,6 +107,7 @@ int run_locate(const LocateArguments& arguments);
 /// What `estimator` may be.
 std::vector<std::string> estimator_names();
 int run_evaluate(const EvaluateArguments& arguments);
+int run_survey(const SurveyArguments& arguments);
 int run_map_info(const MapArguments& arguments);
 int run_map_check(const MapArguments& arguments);
 int run_map_convert(const MapArguments& arguments);

@@ -52,19 +52,6 @@ Json value_of(const ConfigField& field) {
   return *std::get<bool*>(field.target);
 }
 
-Json settings_report(const LogSettings& settings) {
-  Json json = Json::object();
-  Configuration configuration = settings.configuration;
-  for (const ConfigField& field : fields_of(configuration)) {
-    const auto source = settings.sources.find(field.name());
-    if (source == settings.sources.end()) continue;
-    Json& entry = json[field.name()];
-    entry["value"] = value_of(field);
-    entry["source"] = source->second;
-  }
-  return json;
-}
-
 Json laser_report(const LaserSummary& laser, const ScannerModel& scanner,
                   const ScannerSources& sources) {
   Json json = Json::object();
@@ -78,22 +65,6 @@ Json laser_report(const LaserSummary& laser, const ScannerModel& scanner,
   json["range_sigma_source"] = sources.range_sigma_m;
   json["quantisation_m"] = scanner.quantisation_m;
   json["quantisation_source"] = sources.quantisation_m;
-  return json;
-}
-
-Json log_report(const LogSummary& log, const LogSettings& settings) {
-  Json json = Json::object();
-  json["lines"] = log.lines;
-  json["scans"] = log.scans();
-  json["lasers"] = Json::array();
-  LaserScan scan;
-  for (std::size_t i = 0; i < log.lasers.size(); ++i) {
-    scan.scanner = static_cast<int>(i);
-    json["lasers"].push_back(laser_report(
-        log.lasers[i], settings.configuration.localizer.scanner_of(scan), settings.lasers[i]));
-  }
-  json["warnings"] = Json::array();
-  for (const Warning& warning : log.warnings) json["warnings"].push_back(to_string(warning));
   return json;
 }
 
@@ -145,6 +116,35 @@ Json spread(std::vector<Value> values, double unit) {
 }
 
 }  // namespace
+
+Json settings_report(const LogSettings& settings) {
+  Json json = Json::object();
+  Configuration configuration = settings.configuration;
+  for (const ConfigField& field : fields_of(configuration)) {
+    const auto source = settings.sources.find(field.name());
+    if (source == settings.sources.end()) continue;
+    Json& entry = json[field.name()];
+    entry["value"] = value_of(field);
+    entry["source"] = source->second;
+  }
+  return json;
+}
+
+Json log_report(const LogSummary& log, const LogSettings& settings) {
+  Json json = Json::object();
+  json["lines"] = log.lines;
+  json["scans"] = log.scans();
+  json["lasers"] = Json::array();
+  LaserScan scan;
+  for (std::size_t i = 0; i < log.lasers.size(); ++i) {
+    scan.scanner = static_cast<int>(i);
+    json["lasers"].push_back(laser_report(
+        log.lasers[i], settings.configuration.localizer.scanner_of(scan), settings.lasers[i]));
+  }
+  json["warnings"] = Json::array();
+  for (const Warning& warning : log.warnings) json["warnings"].push_back(to_string(warning));
+  return json;
+}
 
 Json localize_report(const LogSettings& settings, const MapReport& cleaning, const LogSummary& log,
                      const RunOrigin& origin, const Replay& replay) {

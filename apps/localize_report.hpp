@@ -20,6 +20,12 @@ struct RunOrigin {
 Json localize_report(const LogSettings& settings, const MapReport& cleaning, const LogSummary& log,
                      const RunOrigin& origin, const Replay& replay);
 
+/// The settings that are not the defaults' own: each with its value and where it came from.
+Json settings_report(const LogSettings& settings);
+
+/// What the reading of a log met, laser by laser.
+Json log_report(const LogSummary& log, const LogSettings& settings);
+
 /// timings.json: microseconds by stage, over the scans that had it.
 Json timings_report(const std::vector<Timings>& timings);
 

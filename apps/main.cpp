@@ -116,6 +116,39 @@ void add_locate(CLI::App& app, adit::LocateArguments& args, Action& action) {
   command->callback([&] { action = [&] { return run_locate(args); }; });
 }
 
+#ifdef ADIT_WITH_SURVEY
+void add_survey(CLI::App& app, adit::SurveyArguments& args, Action& action) {
+  CLI::App* command = app.add_subcommand(
+      "survey",
+      "A plan of the walls that the scans of a log show, from dead reckoning and scans alone or "
+      "from known positions; or what has changed against a plan");
+  command->add_option("--log", args.log, "CARMEN log")->required();
+  command->add_option("--poses", args.poses,
+                      "TUM file of positions that are known; their headings need not be");
+  command->add_option("--update", args.update,
+                      "a plan to compare with: the output is the list of changes");
+  command->add_option(
+      "--apply", args.apply,
+      "changes to make in that plan, \"all\" or as in 1,3-5: the output is the plan");
+  command->add_option("--start", args.start,
+                      "in that plan, x,y,heading in m and degrees (default: the first odometry)");
+  command->add_option("--trajectory", args.trajectory,
+                      "TUM file to write: the pose at every scan, in the log's order");
+  command->add_option(
+      "--walls", args.walls,
+      "table to write (.csv): each wall with its uncertainty and what speaks for it");
+  command->add_option("--report", args.report, "JSON file to write: what was read and found");
+  command->add_option("--picture", args.picture, "picture to write (.png, .svg or .pdf)");
+  add_threads(command, args.threads, "threads (default: all cores); the results are the same");
+  command->add_option("--config", args.config, "TOML file; see 'adit config --reference'");
+  command
+      ->add_option("-o,--output", args.output,
+                   "the plan to write (.csv), in m; with --update the changes (.json or .csv)")
+      ->required();
+  command->callback([&] { action = [&] { return run_survey(args); }; });
+}
+#endif
+
 void add_aliases(CLI::App* map, adit::AliasesArguments& args, Action& action) {
   CLI::App* command = map->add_subcommand(
       "aliases", "Where in a plan one scan tells the place, and which places look the same");
@@ -211,6 +244,9 @@ int main(int argc, char** argv) {
   adit::LocalizeArguments localize;
   adit::LocateArguments locate;
   adit::EvaluateArguments evaluate;
+#ifdef ADIT_WITH_SURVEY
+  adit::SurveyArguments survey;
+#endif
   adit::MapArguments map;
   adit::AliasesArguments aliases;
   adit::PlotArguments plot;
@@ -221,6 +257,9 @@ int main(int argc, char** argv) {
   add_localize(app, localize, action);
   add_locate(app, locate, action);
   add_evaluate(app, evaluate, action);
+#ifdef ADIT_WITH_SURVEY
+  add_survey(app, survey, action);
+#endif
   add_map(app, map, aliases, action);
   add_plot(app, plot, action);
   CLI::App* config =

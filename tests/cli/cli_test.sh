@@ -707,6 +707,147 @@ demo() {
   says plan.csv
 }
 
+# ring_drive FOLDER: once round a gallery with niches and on, with bad dead reckoning
+ring_drive() {
+  printf '%s\n' 0,0,20,0 20,0,20,14 20,14,0,14 0,14,0,0 3,3,3,11 3,11,17,11 17,11,17,3 17,3,12,3 12,3,12,4 \
+    12,4,9,4 9,4,9,3 9,3,3,3 7,14,7,13 7,13,8,13 8,13,8,14 >ring.csv
+  local quarter='0.7071067812 0.7071067812'
+  printf '%s\n' '0 1.5 1.5 0 0 0 0 1' '1 18.5 1.5 0 0 0 0 1' "2 18.5 1.5 0 0 0 $quarter" "3 18.5 12.5 0 0 0 $quarter" \
+    '4 18.5 12.5 0 0 0 1 0' '5 1.5 12.5 0 0 0 1 0' "6 1.5 12.5 0 0 0 -$quarter" "7 1.5 1.5 0 0 0 -$quarter" \
+    '8 1.5 1.5 0 0 0 0 1' '9 10 1.5 0 0 0 0 1' >path.tum
+  expect 0 simulate ring.csv --path path.tum --scanner sick --speed 1 --odometry 0.04,2,0.04 --seed 3 -o "$1"
+}
+
+# A drive from dead reckoning and scans alone: its poses, its walls, and the same from run to run.
+survey() {
+  ring_drive sim
+  local call='survey --log sim/log.clf --config sim/config.toml'
+  # shellcheck disable=SC2086
+  expect 0 $call --threads 1 --trajectory one.tum --walls one_walls.csv --report one.json --picture one.png -o one.csv
+  prints ' loop closures'
+  [ "$(grep -c '^[^#]' one.tum)" -eq "$(grep -c ^ROBOTLASER1 sim/log.clf)" ] || die 'not one pose for each scan'
+  is_png one.png
+  in_range closures "$(grep -c earlier_s one.json)" 3 1000
+  in_range 'length of wall' "$(json_number one.json walls length_m)" 112 120
+  in_range segments "$(json_number one.json walls segments)" 14 24
+  [ "$(lines_of one_walls.csv)" -eq $(($(lines_of one.csv) + 1)) ] || die 'not one row of the table for each wall'
+  # the first pose is the odometry's, whose heading is off by what the drive does not tell: two relations
+  local stamps
+  stamps=$(awk '{ t[NR] = $1; p[NR] = $2 " " $3 } END { print t[1], t[NR] }' sim/truth.tum)
+  awk -v stamps="$stamps" 'BEGIN { split(stamps, s, " ") }
+    $1 == s[1] { x = $2; y = $3; h = 2 * atan2($7, $8) }
+    $1 == s[2] { c = cos(h); n = sin(h); dx = $2 - x; dy = $3 - y
+      print s[1], s[2], c * dx + n * dy, c * dy - n * dx, 0, 0, 0, 2 * atan2($7, $8) - h }' sim/truth.tum >ends.relations
+  expect 0 evaluate --estimate one.tum --relations ends.relations --json
+  in_range 'error from end to end' "$(json_number out relations translation_mean)" 0 0.08
+  # shellcheck disable=SC2086
+  expect 0 $call --threads 2 --trajectory two.tum --walls two_walls.csv --report two.json --picture two.png -o two.csv
+  local ending
+  for ending in .csv .tum _walls.csv .json .png; do cmp one$ending two$ending; done
+}
+
+# A plan is compared with what is there, and changes only where that is asked for.
+survey_update() {
+  ring_drive sim
+  # a wall that is new, and one that is gone
+  { grep -v '^17,11,17,3$' ring.csv && echo 5,0,5,1; } >old.csv
+  cp old.csv kept.csv
+  local call='survey --log sim/log.clf --config sim/config.toml --update old.csv --start 1.5,1.5,0'
+  # shellcheck disable=SC2086
+  expect 0 $call --trajectory poses.tum --picture changes.png -o changes.json
+  prints 'wall gone .* at 5.0'
+  prints 'new obstacle .* at 17.0'
+  is_png changes.png
+  judged poses.tum sim/truth.tum 0.03 0.1
+  cmp old.csv kept.csv
+  in_range changes "$(grep -c '"number"' changes.json)" 2 2
+  # shellcheck disable=SC2086
+  expect 0 $call -o changes.csv
+  [ "$(grep -c ',removed,\|,added,' changes.csv)" -ge 2 ] || die 'the table lacks a change'
+  local number
+  number=$(awk -F, '$2 == "new obstacle" { print $1; exit }' changes.csv)
+  # shellcheck disable=SC2086
+  expect 0 $call --apply "$number" -o new.csv
+  grep -q '^5,0,5,1' new.csv || die 'a change was made that nobody asked for'
+  in_range 'walls added' $(($(lines_of new.csv) - $(lines_of old.csv))) 1 3
+  # shellcheck disable=SC2086
+  expect 0 $call --apply all -o old.csv
+  ! grep -q '^5,0,5,1' old.csv || die 'the wall that is gone is still there'
+  cp kept.csv old.csv
+  # shellcheck disable=SC2086
+  expect 1 $call --apply 7 -o new7.csv
+  says 'no change 7'
+  absent new7.csv
+  # of another mine no scan is
+  printf '0,0,1,0\n' >other.csv
+  expect 1 survey --log sim/log.clf --config sim/config.toml --update other.csv --start 900,900,0 -o e.json
+  says 'other.csv: no scan'
+  absent e.json
+}
+
+# Positions that are known, headings that are not.
+survey_positions() {
+  ring_drive sim
+  awk 'NR % 12 == 1 { print $1, $2, $3, 0, 0, 0, 0, 1 }' sim/truth.tum >positions.tum
+  awk 'FILENAME == "positions.tum" { t[$1 + 0] = 1; next }
+    /^ROBOTLASER1/ { if (($(NF - 2) + 0) in t) print; next } { print }' positions.tum sim/log.clf >stations.clf
+  expect 0 survey --log stations.clf --config sim/config.toml --poses positions.tum --trajectory poses.tum -o plan.csv
+  prints 'stations'
+  awk 'FILENAME == "positions.tum" { t[$1 + 0] = 1; next } ($1 + 0) in t' positions.tum sim/truth.tum >truth.tum
+  judged poses.tum truth.tum 0.01 0.01
+  in_range 'heading error' "$(json_number out heading_deg median)" 0 0.5
+  expect 0 map info plan.csv
+  expect 1 survey --log stations.clf --poses absent.tum -o e
+  says absent.tum
+  absent e
+}
+
+survey_bad_input() {
+  ring_drive sim
+  local call='survey --log sim/log.clf'
+  # shellcheck disable=SC2086
+  {
+    expect 2 survey -o e
+    says '--log'
+    expect 2 $call
+    expect 2 $call --apply all -o e
+    says '--update'
+    expect 2 $call --start 0,0,0 -o e
+    expect 2 $call --update ring.csv --apply 3-1 -o e
+    expect 2 $call --update ring.csv --apply 0 -o e
+    expect 2 $call --update ring.csv --start 0,0 -o e.json
+    expect 2 $call --update ring.csv -o e.txt
+    expect 2 $call --picture e.gif -o e
+    expect 2 $call --walls e.txt -o e
+    expect 2 $call -o e.dxf
+    expect 1 $call -o none/e.csv
+    says 'no such folder'
+  }
+  : >empty.clf
+  printf 'ODOM 0 0 0 0 0 0 1 h 1\nODOM 1 0 0 0 0 0 2 h 2\n' >scanless.clf
+  head -c 3000 /dev/urandom >binary.clf
+  awk '/^ROBOTLASER1/ { n = 9 + $9 + 1; n += $n; for (i = 1; i <= 6; i++) $(n + i) = 0 } { print }' sim/log.clf >still.clf
+  local log
+  for log in empty.clf scanless.clf binary.clf absent.clf still.clf; do bad "$log" survey --log $log -o e; done
+  says 'odometry reports no move'
+  printf '0,0,1,0\nx,0,1,1\n' >letters.csv
+  bad letters.csv:2 survey --log sim/log.clf --update letters.csv -o e.json
+  mkdir levels
+  cp ring.csv levels/upper.csv
+  cp ring.csv levels/lower.csv
+  bad levels survey --log sim/log.clf --update levels -o e.json
+  printf '1 2 3\n' >short.tum
+  bad short.tum:1 survey --log sim/log.clf --poses short.tum -o e
+  printf '[survey_loops]\nleast_scor = 1\n' >key.toml
+  bad key.toml:2 survey --log sim/log.clf --config key.toml -o e
+  # what cannot be written takes the rest with it
+  : >file
+  bad . survey --log sim/log.clf --trajectory e.tum -o /dev/null/e
+  mkdir folder.json
+  bad folder.json survey --log sim/log.clf --trajectory e.tum --report folder.json -o e
+  absent e.tum e.json
+}
+
 "$3"
 cd "$scratch/.."
 rm -rf "$scratch"

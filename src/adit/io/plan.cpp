@@ -31,7 +31,9 @@ bool is_header(std::string_view row) {
   return count >= 4;
 }
 
-Result<void> check_ending(const std::string& path) {
+}  // namespace
+
+Result<void> check_plan_name(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -40,8 +42,6 @@ Result<void> check_ending(const std::string& path) {
                   " are not supported yet; expected .csv or .vectormap.txt",
               path);
 }
-
-}  // namespace
 
 Result<Plan> parse_plan(std::string_view text, const std::string& file) {
   if (const auto checked = check_text(text, file); !checked) return tl::unexpected(checked.error());
@@ -72,14 +72,14 @@ Result<Plan> parse_plan(std::string_view text, const std::string& file) {
 }
 
 Result<Plan> read_plan(const std::string& path) {
-  if (const auto known = check_ending(path); !known) return tl::unexpected(known.error());
+  if (const auto known = check_plan_name(path); !known) return tl::unexpected(known.error());
   const auto text = read_text(path);
   if (!text) return tl::unexpected(text.error());
   return parse_plan(*text, path);
 }
 
 Result<void> write_plan(std::span<const Segment> segments, const std::string& path) {
-  if (const auto known = check_ending(path); !known) return tl::unexpected(known.error());
+  if (const auto known = check_plan_name(path); !known) return tl::unexpected(known.error());
   std::string text;
   for (const Segment& s : segments) {
     if (!s.is_finite()) return fail("a wall with a coordinate that is not finite", path);

@@ -28,6 +28,9 @@ Result<Plan> read_plan(const std::string& path);
 /// The same from text; `file` is the name in errors.
 Result<Plan> parse_plan(std::string_view text, const std::string& file = {});
 
+/// Whether a plan of that name could be written: its ending is of a form that is supported.
+Result<void> check_plan_name(const std::string& path);
+
 /// Writes `x1,y1,x2,y2` a line with all digits, whole or not at all. Errors: a segment is not
 /// finite, or the ending is of a form that is not supported.
 Result<void> write_plan(std::span<const Segment> segments, const std::string& path);
