@@ -43,8 +43,10 @@ bool Localizer::is_poor(const ScanFit& fit) const {
   const SearchOptions& options = settings_.search;
   const FitQuality quality = quality_of(fit);
   const Vector3d off = difference(predicted_.pose, fit.pose);
-  return !quality.converged || quality.evidence_ratio < options.poor_evidence_ratio ||
-         quality.behind_ratio > options.poor_behind_ratio || has_lost_direction(fit) ||
+  const double asked = std::min(
+      options.poor_evidence_ratio + options.poor_evidence_per_behind * quality.behind_ratio,
+      options.most_poor_evidence_ratio);
+  return !quality.converged || quality.evidence_ratio < asked || has_lost_direction(fit) ||
          off.dot(floored(predicted_.covariance).inverse() * off) > options.poor_chi_square;
 }
 

@@ -11,7 +11,8 @@ namespace adit {
 /// Where to look when a fit explains its scan badly.
 struct SearchOptions {
   double poor_evidence_ratio = 0.6;
-  double poor_behind_ratio = 0.25;
+  double poor_evidence_per_behind = 7.0;
+  double most_poor_evidence_ratio = 0.9;
   double poor_chi_square = 16.27;
   double reach_sigmas = 2.0;
   double least_reach_m = 0.2;
@@ -22,10 +23,14 @@ struct SearchOptions {
     field("poor_evidence_ratio", self.poor_evidence_ratio,
           "a fit is poor that explains less than this of what a scan of nothing but the map's "
           "walls would");
-    field("poor_behind_ratio", self.poor_behind_ratio,
-          "so is one that puts more than this share of the returns behind the map's walls");
+    field("poor_evidence_per_behind", self.poor_evidence_per_behind,
+          "beside it, so many times the share of the returns that it puts behind the map's walls, "
+          "...");
+    field("most_poor_evidence_ratio", self.most_poor_evidence_ratio,
+          "... but one that explains more than this is not poor");
     field("poor_chi_square", self.poor_chi_square,
-          "and one farther than this from the prediction; chi-square of three degrees of freedom "
+          "poor is also one farther than this from the prediction; chi-square of three degrees of "
+          "freedom "
           "at 1e-3");
     field("reach_sigmas", self.reach_sigmas,
           "other places are tried as far as so many sigmas of the prediction");
