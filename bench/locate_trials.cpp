@@ -64,17 +64,18 @@ struct Tally {
   }
 
   void print_shares(const char* what) const {
-    const auto percent = [&](int count) { return 100.0 * count / std::max(1, scans); };
-    fmt::print("{} {}  first {:.1f} %  listed {:.1f} %  ok {:.1f} %\n", what, scans, percent(first),
-               percent(listed), percent(ok));
+    const auto share = [&](const char* name, int count) {
+      fmt::print("  {} {} ({:.1f} %)", name, count, 100.0 * count / std::max(1, scans));
+    };
+    fmt::print("{} {}", what, scans);
+    share("first", first);
+    share("listed", listed);
+    share("ok", ok);
+    fmt::print("  ok_wrong {}  degraded_wrong {}\n", ok_wrong, degraded_wrong);
   }
 
   void print() {
-    const auto percent = [&](int count) { return 100.0 * count / std::max(1, scans); };
-    fmt::print(
-        "scans {}  first {:.1f} %  listed {:.1f} %  ok {:.1f} %  ok_wrong {}  "
-        "degraded_wrong {}\n",
-        scans, percent(first), percent(listed), percent(ok), ok_wrong, degraded_wrong);
+    print_shares("scans");
     fmt::print("verdicts");
     for (const auto& [status, count] : verdicts) fmt::print("  {} {}", to_string(status), count);
     fmt::print("\nsearch_cpu_ms median {:.1f}  p95 {:.1f}  max {:.1f}\n", 1e3 * quantile(0.5),

@@ -94,6 +94,8 @@ constexpr std::array kAboveZero = {
     "survey_alignment.scale_m",
     "survey_alignment.wall_sigma_m",
     "survey_alignment.shared_error_points",
+    "survey_loops.cell_m",
+    "survey_loops.blur_m",
     "survey_loops.first_limit_m",
     "survey_loops.closure_sigma_m",
     "survey_loops.closure_sigma_rad",

@@ -8,7 +8,7 @@
 namespace adit {
 namespace {
 
-constexpr int kBoundedKeys = 58;  // that cannot be 0
+constexpr int kBoundedKeys = 60;  // that cannot be 0
 
 LoadedConfiguration loaded(std::string_view text) {
   auto read = parse_configuration(text, "c.toml");
@@ -153,6 +153,8 @@ TEST(Configuration, SomeKeysCannotBeZero) {
                            "survey_alignment.scale_m",
                            "survey_alignment.wall_sigma_m",
                            "survey_alignment.shared_error_points",
+                           "survey_loops.cell_m",
+                           "survey_loops.blur_m",
                            "survey_loops.first_limit_m",
                            "survey_loops.closure_sigma_m",
                            "survey_loops.closure_sigma_rad",

@@ -96,10 +96,10 @@ struct RelocationOptions {
   double rival_weight = 0.02;
   double apart_m = 1.0;
   double apart_rad = radians(5.0);
-  double sure_gap = 9.0;
-  double sure_evidence_ratio = 0.9;
+  double sure_gap = 7.0;
+  double sure_evidence_ratio = 0.8;
   double sure_evidence_per_gap = 0.012;
-  double sure_evidence_per_through = 5.0;
+  double sure_evidence_per_through = 10.0;
   double sure_evidence_per_error = 0.15;
 
   template <class Self, class Field>

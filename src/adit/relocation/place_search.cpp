@@ -105,7 +105,10 @@ ADIT_WIDE void rate_block(const PlaceIndex::SortedRanges& block,
                           std::span<const std::uint8_t> sorted, std::uint8_t in_sight,
                           BlockCosts& costs) {
   constexpr std::size_t kStep = kRangeBins / PlaceIndex::kRanks;
-  constexpr std::uint8_t kCap = 7;  // 32 times this fits a byte
+  // What stands in the way makes ranges shorter, nothing makes them longer. Sixteen times both fit
+  // a byte.
+  constexpr std::uint8_t kLongerCap = 10;
+  constexpr std::uint8_t kShorterCap = 5;
   costs.fill(0);
   for (std::size_t rank = 0; rank * kStep < sorted.size(); ++rank) {
     const std::uint8_t longest = sorted[sorted.size() - 1 - rank * kStep];
@@ -118,8 +121,8 @@ ADIT_WIDE void rate_block(const PlaceIndex::SortedRanges& block,
       const auto longer = static_cast<std::uint8_t>((longest > reach ? longest : reach) - reach);
       const auto shorter =
           static_cast<std::uint8_t>((front > shortest ? front : shortest) - shortest);
-      costs[i] = static_cast<std::uint8_t>(costs[i] + (longer < kCap ? longer : kCap) +
-                                           (shorter < kCap ? shorter : kCap));
+      costs[i] = static_cast<std::uint8_t>(costs[i] + (longer < kLongerCap ? longer : kLongerCap) +
+                                           (shorter < kShorterCap ? shorter : kShorterCap));
     }
   }
 }

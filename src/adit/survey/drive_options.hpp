@@ -124,8 +124,26 @@ struct TrackingStepOptions {
   }
 };
 
+/// The grid in which places are compared.
+struct FieldOptions {
+  double cell_m = 0.1;
+  double blur_m = 0.1;
+  double unseen = 0.3;
+  double most_reach_m = 30.0;
+
+  template <class Self, class Field>
+  static void visit(Self& self, Field&& field) {
+    field("cell_m", self.cell_m, "cells of the grid in which places are compared (m)");
+    field("blur_m", self.blur_m, "how far off a wall a point still goes with it, one sigma (m)");
+    field("unseen", self.unseen, "what a point where nothing was seen is worth; 1 is a wall");
+    field("most_reach_m", self.most_reach_m,
+          "points farther than this from the middle are left out (m)");
+  }
+};
+
 /// Where and how places that were seen before are looked for.
 struct LoopOptions {
+  FieldOptions grid;
   int query_keyframes = 5;
   int query_stride = 3;
   int target_keyframes = 13;
@@ -153,6 +171,7 @@ struct LoopOptions {
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
+    FieldOptions::visit(self.grid, field);
     field("query_keyframes", self.query_keyframes, "so many kept scans are looked for together");
     field("query_stride", self.query_stride, "around every so manieth");
     field("target_keyframes", self.target_keyframes, "among so many others together");

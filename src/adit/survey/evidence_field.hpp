@@ -8,32 +8,17 @@
 
 namespace adit {
 
-/// How well a point would go with what scans saw: a grid of bytes, 255 on a wall, falling off
-/// around it, 0 where beams passed, and between for what was not seen.
-struct FieldOptions {
-  double cell_m = 0.1;
-  double blur_m = 0.1;
-  double unseen = 0.3;
-  double most_reach_m = 30.0;
-
-  template <class Self, class Field>
-  static void visit(Self& self, Field&& field) {
-    field("cell_m", self.cell_m, "cells of the grid in which places are compared (m)");
-    field("blur_m", self.blur_m, "how far off a wall a point still goes with it, one sigma (m)");
-    field("unseen", self.unseen, "what a point where nothing was seen is worth; 1 is a wall");
-    field("most_reach_m", self.most_reach_m,
-          "points farther than this from the middle are left out (m)");
-  }
-};
-
 /// A scan's points and where they were seen from, in a common frame.
 struct PlacedShape {
   const ScanShape* shape = nullptr;
   Pose2 frame_from_shape;
 };
 
-/// The grid, and above it the largest values within 2, 4, 8 ... cells to the right and upwards, so
-/// that one value bounds those of many shifts (Olson 2009; Hess et al. 2016).
+/// How well a point would go with what scans saw: a grid of bytes, 255 on a wall, falling off
+/// around it, 0 where beams passed, and between for what was not seen.
+///
+/// Above the grid lie the largest values within 2, 4, 8 ... cells to the right and upwards, so that
+/// one value bounds those of many shifts (Olson 2009; Hess et al. 2016).
 class EvidenceField {
  public:
   static constexpr int kLevels = 6;

@@ -18,17 +18,22 @@ struct Candidate {
 
 std::size_t apart(std::size_t a, std::size_t b) { return a > b ? a - b : b - a; }
 
-/// Keyframes around one, as seen from it.
-std::vector<PlacedShape> around(const LoopScene& scene, std::size_t middle, int count) {
-  const std::size_t half = static_cast<std::size_t>(count / 2);
-  const std::size_t begin = middle > half ? middle - half : 0;
-  const std::size_t end = std::min(scene.keyframes.size(), middle + half + 1);
+/// Keyframes as seen from one of them.
+std::vector<PlacedShape> shapes_of(const LoopScene& scene, std::size_t middle, std::size_t begin,
+                                   std::size_t end) {
   const Pose2 middle_from_map = inverse(scene.poses[middle]);
   std::vector<PlacedShape> shapes;
   for (std::size_t i = begin; i < end; ++i) {
     shapes.push_back({&scene.keyframes[i].shape, middle_from_map * scene.poses[i]});
   }
   return shapes;
+}
+
+/// Keyframes around one, as seen from it.
+std::vector<PlacedShape> around(const LoopScene& scene, std::size_t middle, int count) {
+  const std::size_t half = static_cast<std::size_t>(count / 2);
+  return shapes_of(scene, middle, middle > half ? middle - half : 0,
+                   std::min(scene.keyframes.size(), middle + half + 1));
 }
 
 bool is_known(std::span<const Closure> known, std::size_t target, std::size_t query,
@@ -39,25 +44,24 @@ bool is_known(std::span<const Closure> known, std::size_t target, std::size_t qu
   });
 }
 
-/// Keyframes up to `way_m` before and after one, as seen from it.
-std::vector<PlacedShape> stretch_around(const LoopScene& scene, std::size_t middle, double way_m) {
-  const auto step = [&](std::size_t i) {
-    return (scene.poses[i].translation() - scene.poses[i + 1].translation()).norm();
-  };
+/// Where the way since one keyframe, or back from it, becomes longer than this: the first that is
+/// left out, but none from `limit` on.
+std::size_t way_end(const LoopScene& scene, std::size_t middle, double way_m, std::size_t limit) {
+  std::size_t end = middle + 1;
+  for (double way = 0.0; end < limit; ++end) {
+    way += (scene.poses[end].translation() - scene.poses[end - 1].translation()).norm();
+    if (way > way_m) break;
+  }
+  return end;
+}
+
+std::size_t way_begin(const LoopScene& scene, std::size_t middle, double way_m) {
   std::size_t begin = middle;
   for (double way = 0.0; begin > 0; --begin) {
-    if ((way += step(begin - 1)) > way_m) break;
+    way += (scene.poses[begin].translation() - scene.poses[begin - 1].translation()).norm();
+    if (way > way_m) break;
   }
-  std::size_t end = middle + 1;
-  for (double way = 0.0; end < scene.keyframes.size(); ++end) {
-    if ((way += step(end - 1)) > way_m) break;
-  }
-  const Pose2 middle_from_map = inverse(scene.poses[middle]);
-  std::vector<PlacedShape> shapes;
-  for (std::size_t i = begin; i < end; ++i) {
-    shapes.push_back({&scene.keyframes[i].shape, middle_from_map * scene.poses[i]});
-  }
-  return shapes;
+  return begin;
 }
 
 /// Compares one target with all its queries.
@@ -71,13 +75,13 @@ class TargetSearch {
     std::vector<Closure> found;
     if (candidates.empty()) return found;
     const std::vector<PlacedShape> shapes = around(scene_, target, options_.target_keyframes);
-    field_.build(shapes, true, field_options_);
+    field_.build(shapes, true, options_.grid);
     map_.clear();
     for (const PlacedShape& s : shapes) {
       map_.add(s.shape->points, RigidTransform(s.frame_from_shape));
     }
     map_.index();
-    surroundings_.reset();
+    surroundings_end_ = 0;
     for (const Candidate& candidate : candidates) {
       if (auto closure = compare(target, candidate)) found.push_back(*closure);
     }
@@ -100,26 +104,35 @@ class TargetSearch {
     const auto rival = search_.best(field_, window, best->with_prior - options_.rival_margin,
                                     &best->pose, options_.rival_m, options_.rival_rad);
     if (rival) return std::nullopt;
-    if (has_likeness(target, *best, window)) return std::nullopt;
+    if (has_likeness(target, candidate.query, *best, window)) return std::nullopt;
     return refine(target, candidate.query, query, *best);
+  }
+
+  /// The surroundings of the target as they were seen before the query was taken.
+  void survey_surroundings(std::size_t target, std::size_t query) {
+    const std::size_t half = static_cast<std::size_t>(options_.query_keyframes / 2);
+    const std::size_t limit = std::max(target + 1, query > half ? query - half : 0);
+    const std::size_t end = way_end(scene_, target, options_.surroundings_m, limit);
+    if (end == surroundings_end_) return;
+    surroundings_end_ = end;
+    FieldOptions wide = options_.grid;
+    wide.most_reach_m += options_.surroundings_m;
+    const std::size_t begin = way_begin(scene_, target, options_.surroundings_m);
+    surroundings_.build(shapes_of(scene_, target, begin, end), true, wide);
   }
 
   /// Whether the surroundings repeat themselves at a distance that the window does not exclude:
   /// then the place may as well be one that was never seen before.
-  bool has_likeness(std::size_t target, const SearchPeak& peak, const SearchWindow& window) {
+  bool has_likeness(std::size_t target, std::size_t query, const SearchPeak& peak,
+                    const SearchWindow& window) {
     if (window.reach_m < options_.rival_m) return false;
-    if (!surroundings_) {
-      FieldOptions wide = field_options_;
-      wide.most_reach_m += options_.surroundings_m;
-      surroundings_.emplace();
-      surroundings_->build(stretch_around(scene_, target, options_.surroundings_m), true, wide);
-    }
+    survey_surroundings(target, query);
     SearchWindow around_it = window;
     around_it.middle = peak.pose;
     around_it.reach_m = std::min(options_.surroundings_m, 2.0 * window.reach_m);
     around_it.most_cost = 0.0;
     return search_
-        .best(*surroundings_, around_it, peak.score - options_.likeness_margin, &peak.pose,
+        .best(surroundings_, around_it, peak.score - options_.likeness_margin, &peak.pose,
               options_.rival_m, options_.rival_rad)
         .has_value();
   }
@@ -173,9 +186,9 @@ class TargetSearch {
   const LoopScene& scene_;
   const LoopOptions& options_;
   const AlignmentOptions& alignment_;
-  FieldOptions field_options_;
   EvidenceField field_;
-  std::optional<EvidenceField> surroundings_;  // of the target, where they were asked for
+  EvidenceField surroundings_;        // of the target, where they were asked for
+  std::size_t surroundings_end_ = 0;  // of their keyframes; 0: there are none yet
   SurfaceMap map_;
   CorrelativeSearch search_;
 };

@@ -60,6 +60,8 @@ TEST(JoinEnds, LeavesAGapThatBeamsWentThrough) {
     PosedScan posed;
     posed.map_from_vehicle = {0.5, 0.01 + 0.0125 * k, 0.0};
     posed.scan.ranges = {5.0};
+    posed.scan.bearing_step = 0.01;
+    posed.scan.max_range = 80.0;
     for (int again = 0; again < 4; ++again) evidence.look_through(posed, 0);
   }
   evidence.finish_looking();

@@ -143,7 +143,8 @@ bool covers(const WallNode& node, const WallNode& other, double along, double ac
 /// Gives each node what supports it: the facets nearest to it along the wall. A scan that meets
 /// two of a node's facets counts twice.
 void add_support(BeamEvidence& evidence, const std::vector<Settled>& settled, double spacing,
-                 double across, int least_visits, NodeGrid& grid, std::vector<WallNode>& nodes) {
+                 double across, const WallOptions& options, NodeGrid& grid,
+                 std::vector<WallNode>& nodes) {
   std::vector<double> weights(nodes.size(), 0.0);
   std::vector<double> visits(nodes.size(), 0.0);
   std::vector<std::uint64_t> visit_sets(nodes.size(), 0);
@@ -170,7 +171,8 @@ void add_support(BeamEvidence& evidence, const std::vector<Settled>& settled, do
     node.sure = node.sure || facet.near;
   }
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    nodes[i].sure = nodes[i].sure || std::popcount(visit_sets[i]) >= least_visits;
+    nodes[i].sure = nodes[i].sure || std::popcount(visit_sets[i]) >= options.min_far_visits ||
+                    nodes[i].scans >= options.min_far_scans;
     nodes[i].visit_information = weights[i] / std::max(visits[i], 1.0);
   }
 }
@@ -205,7 +207,7 @@ std::vector<WallNode> find_wall_nodes(BeamEvidence& evidence, const ScannerModel
     });
     if (!taken) grid.add(settled[i].node);
   }
-  add_support(evidence, settled, spacing, across, options.min_far_visits, grid, nodes);
+  add_support(evidence, settled, spacing, across, options, grid, nodes);
   std::erase_if(nodes, [&](const WallNode& node) {
     return node.scans < options.min_scans || node.hits < spacing * options.min_hits_per_m;
   });

@@ -23,6 +23,7 @@ struct WallOptions {
   int min_scans = 3;
   double sure_range_m = 1e9;
   int min_far_visits = 2;
+  int min_far_scans = 6;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -56,7 +57,8 @@ struct WallOptions {
     field("sure_range_m", self.sure_range_m,
           "what is met from farther than this only may be roof or floor (m) ...");
     field("min_far_visits", self.min_far_visits,
-          "... and is a wall where so many visits met it in one place");
+          "... and is a wall where so many visits met it in one place ...");
+    field("min_far_scans", self.min_far_scans, "... or so many scans");
     field("min_scans", self.min_scans, "places of a wall that fewer scans met are dropped");
   }
 };

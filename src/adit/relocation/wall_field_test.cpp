@@ -1,0 +1,51 @@
+#include "adit/relocation/wall_field.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace adit {
+namespace {
+
+/// Two walls that face each other across six metres.
+std::vector<Segment> drift() {
+  return {{{100.0, 50.0}, {140.0, 50.0}}, {{140.0, 56.0}, {100.0, 56.0}}};
+}
+
+TEST(WallField, MeetsTheWallNearestToAPoint) {
+  const LineMap map = LineMap::build(drift());
+  const WallField field(map);
+  for (const double x : {101.0, 120.3, 139.0}) {
+    const Vector2d below(x, 50.4);
+    const auto met = field.meet(below);
+    ASSERT_TRUE(met) << x;
+    const Segment& wall = map.walls()[static_cast<std::size_t>(met->wall)].segment;
+    EXPECT_NEAR(wall.a.y(), 50.0, 1e-9);
+    EXPECT_NEAR((below - met->off * met->normal).y(), 50.0, 1e-4);
+    EXPECT_NEAR(met->normal.norm(), 1.0, 1e-6);
+  }
+}
+
+TEST(WallField, MeetsNothingFarFromAllWalls) {
+  const WallField field(LineMap::build(drift()));
+  EXPECT_FALSE(field.meet({120.0, 53.0}));
+  EXPECT_FALSE(field.meet({-1e6, 1e6}));
+  EXPECT_FALSE(WallField(LineMap()).meet({0.0, 0.0}));
+}
+
+TEST(WallField, MeetsNoWallBeyondItsEnd) {
+  const WallField field(LineMap::build(drift()));
+  EXPECT_TRUE(field.meet({140.2, 50.0}));
+  EXPECT_FALSE(field.meet({140.6, 50.0}));
+}
+
+TEST(WallField, CoversNothingOfAPlanWithWallsAstray) {
+  std::vector<Segment> walls = drift();
+  walls.push_back({{4e7, 4e7}, {4e7 + 10.0, 4e7}});
+  const WallField field(LineMap::build(walls));
+  EXPECT_FALSE(field.meet({120.0, 50.1}));
+  EXPECT_LT(field.memory(), 1000u);
+}
+
+}  // namespace
+}  // namespace adit
