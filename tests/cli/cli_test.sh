@@ -750,7 +750,7 @@ survey() {
 survey_update() {
   ring_drive sim
   # a wall that is new, and one that is gone
-  { grep -v '^17,11,17,3$' ring.csv && echo 5,0,5,1; } >old.csv
+  { grep -v '^17,11,17,3$' ring.csv && echo 5,0,5,1.4; } >old.csv
   cp old.csv kept.csv
   local call='survey --log sim/log.clf --config sim/config.toml --update old.csv --start 1.5,1.5,0'
   # shellcheck disable=SC2086

@@ -70,8 +70,11 @@ struct RelocationOptions {
   int first_bins = 16;
   double rated_share = 0.15;
   int fewest_rated = 8000;
+  double compared_share = 0.03;
   int compared = 6000;
+  double moved_share = 0.02;
   int moved = 3000;
+  double moved_again_share = 0.002;
   int moved_again = 400;
   int first_beams = 30;
   int quick_beams = 100;
@@ -96,11 +99,11 @@ struct RelocationOptions {
   double rival_weight = 0.02;
   double apart_m = 1.0;
   double apart_rad = radians(5.0);
-  double sure_gap = 7.0;
-  double sure_evidence_ratio = 0.8;
+  double sure_gap = 9.0;
+  double sure_evidence_ratio = 0.85;
   double sure_evidence_per_gap = 0.012;
   double sure_evidence_per_through = 10.0;
-  double sure_evidence_per_error = 0.15;
+  double sure_evidence_per_error = 0.2;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -114,10 +117,15 @@ struct RelocationOptions {
           "this share of all places, by their ranges without regard to heading, is rated at all "
           "headings");
     field("fewest_rated", self.fewest_rated, "but not fewer than this");
-    field("compared", self.compared, "so many of them are compared with the scan in all bearings");
-    field("moved", self.moved,
-          "so many poses of those are moved onto the walls nearest to the scan");
-    field("moved_again", self.moved_again, "and the best of these moved on");
+    field("compared_share", self.compared_share,
+          "so many of them, a share of all places, are compared with the scan in all bearings");
+    field("compared", self.compared, "but not fewer than this");
+    field("moved_share", self.moved_share,
+          "so many poses of those, a share likewise, are moved onto the walls nearest to the scan: "
+          "a larger plan has more places that are alike");
+    field("moved", self.moved, "but not fewer than this");
+    field("moved_again_share", self.moved_again_share, "and the best of these moved on");
+    field("moved_again", self.moved_again, "but not fewer than this");
     field("first_beams", self.first_beams, "first with so many beams");
     field("quick_beams", self.quick_beams, "then with so many");
     field("slack_ratio", self.slack_ratio,

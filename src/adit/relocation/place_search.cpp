@@ -204,14 +204,16 @@ std::span<const PlaceMatch> PlaceSearch::find(const PlaceIndex& index, const Las
   const ScanCodes codes = code_scan(scan, scanner, options.slack_ratio * index.pitch_m());
   if (index.empty() || codes.bins_seen == 0) return found_;
   rate_sorted(index, codes, area);
-  const auto share =
-      static_cast<std::size_t>(options.rated_share * static_cast<double>(places_.size()));
-  keep_places(std::max(share, count(options.fewest_rated)));
+  const auto all = static_cast<double>(places_.size());
+  const auto part = [&](double share, int fewest) {
+    return std::max(static_cast<std::size_t>(std::max(0.0, share) * all), count(fewest));
+  };
+  keep_places(part(options.rated_share, options.fewest_rated));
   choose_bins(codes, std::min(kMostFirstBins, count(options.first_bins)));
   rate_headings(index, codes, options);
-  keep_places(count(options.compared));
+  keep_places(part(options.compared_share, options.compared));
   compare(index, codes, options);
-  thin_out(index, count(options.moved), 2.0 * index.pitch_m());
+  thin_out(index, part(options.moved_share, options.moved), 2.0 * index.pitch_m());
   const auto per_step =
       static_cast<float>(options.agreement_per_step / static_cast<double>(codes.bins_seen));
   const auto take = [&](PlaceMatch& match, const QuickFit::Result& moved) {
@@ -223,7 +225,7 @@ std::span<const PlaceMatch> PlaceSearch::find(const PlaceIndex& index, const Las
   for (PlaceMatch& match : matches_) {
     take(match, quick_fit_.approach(index.walls(), match.map_from_laser));
   }
-  keep_best(count(options.moved_again));
+  keep_best(part(options.moved_again_share, options.moved_again));
   quick_fit_.set_scan(scan, scanner, count(options.quick_beams));
   for (PlaceMatch& match : matches_) {
     take(match, quick_fit_.settle(index.walls(), match.map_from_laser));
@@ -304,7 +306,7 @@ void PlaceSearch::compare(const PlaceIndex& index, const ScanCodes& scan,
     for (std::size_t s = 0; s < kRangeBins; ++s) {
       const std::uint16_t before = sums[(s + kRangeBins - 1) % kRangeBins];
       const std::uint16_t after = sums[(s + 1) % kRangeBins];
-      if (!((sums[s] < before) & (sums[s] <= after))) continue;
+      if (!(sums[s] < before && sums[s] <= after)) continue;
       // To the side of the better neighbour, as far as a parabola has it.
       const int bend = before + after - 2 * sums[s];
       const int part = 127 + 127 * (before - after) / std::max(1, bend);

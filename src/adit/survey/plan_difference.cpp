@@ -60,6 +60,17 @@ class LikeWalls {
     return best;
   }
 
+  /// Whether any wall, of whatever direction, is so near.
+  bool any_within(const Vector2d& p, double reach) const {
+    bool found = false;
+    index_.visit([&](const Box& box) { return box.squared_distance(p) <= reach * reach; },
+                 [&](const SegmentIndex::Entry& entry) {
+                   const Segment& s = segments_[static_cast<std::size_t>(entry.segment)];
+                   found = found || distance(s, p) <= reach;
+                 });
+    return found;
+  }
+
   /// How many walls the way from one point to another crosses.
   int crossings(const Vector2d& from, const Vector2d& to) const {
     int count = 0;
@@ -240,12 +251,11 @@ class Comparison {
 
   bool is_new(std::size_t wall) const {
     if (replaced_[wall] != 0) return false;
-    const Segment& s = surveyed_[wall];
-    const Vector2d direction = (s.b - s.a).normalized();
     std::size_t far = 0;
-    const std::vector<Vector2d> places = places_along(s, options_.step_m);
+    const std::vector<Vector2d> places = places_along(surveyed_[wall], options_.step_m);
     for (const Vector2d& p : places) {
-      if (!near_plan_.nearest(p, direction, options_.same_m, options_.same_m)) ++far;
+      // Worn corners lie across their walls' directions.
+      if (!near_plan_.any_within(p, options_.same_m)) ++far;
     }
     return 2 * far > places.size();
   }

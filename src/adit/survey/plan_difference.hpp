@@ -21,17 +21,19 @@ const char* to_string(PlanChange change);
 
 /// When a plan and a survey are the same.
 struct PlanDifferenceOptions {
-  double same_m = 0.2;
+  double same_m = 0.4;
   double moved_m = 1.0;
   double parallel_rad = radians(30.0);
   double step_m = 0.1;
-  double min_length_m = 0.5;
+  double min_length_m = 1.0;
   double min_votes = 0.5;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
     field("same_m", self.same_m,
-          "a surveyed wall no farther than this from the plan's is the same (m)");
+          "a surveyed wall no farther than this from the plan's is the same: three sigma of a plan "
+          "of "
+          "rough walls (m)");
     field("moved_m", self.moved_m,
           "a like wall no farther than this from one that is gone is that wall, moved (m)");
     field("parallel_rad", self.parallel_rad, "walls of the same direction within this (rad)");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "adit/simulation/scanner.hpp"
 #include "adit/simulation/world.hpp"
@@ -51,6 +52,38 @@ TEST(CompareWithPlan, FindsNothingWhereNothingChanged) {
   const auto d = difference(corridor(false), corridor(false));
   EXPECT_TRUE(d.items.empty());
   EXPECT_GT(d.confirmed_m, 40.0);
+}
+
+TEST(CompareWithPlan, TakesRoughWallsAndWornCornersForThoseOfThePlan) {
+  // Bumps of a quarter of a metre, and corners cut by half a metre.
+  std::vector<Vector2d> rough{{0.5, 0.0}};
+  for (int i = 1; i < 20; ++i) rough.emplace_back(i, 0.25 * std::sin(1.3 * i));
+  for (const Vector2d& p :
+       {Vector2d(19.5, 0.0), Vector2d(20.0, 0.5), Vector2d(20.0, 3.5), Vector2d(19.5, 4.0)}) {
+    rough.push_back(p);
+  }
+  for (int i = 19; i > 0; --i) rough.emplace_back(i, 4.0 + 0.25 * std::sin(1.7 * i));
+  for (const Vector2d& p : {Vector2d(0.5, 4.0), Vector2d(0.0, 3.5), Vector2d(0.0, 0.5)}) {
+    rough.push_back(p);
+  }
+  const auto d = difference(corridor(false), outline(rough));
+  EXPECT_TRUE(d.items.empty());
+  EXPECT_GT(d.confirmed_m, 40.0);
+}
+
+TEST(CompareWithPlan, FindsWhatWasRemovedMovedAndAddedTogether) {
+  auto truth = corridor(false);
+  truth.push_back({{4.0, 4.0}, {4.0, 2.6}});  // a new stopping half way across
+  auto plan = corridor(false);
+  plan.push_back({{15.0, 0.0}, {15.0, 1.6}});  // one that was taken down
+  plan[0] = {{0.0, 0.6}, {20.0, 0.6}};         // a rib cut back
+  const auto d = difference(plan, truth);
+  ASSERT_EQ(count(d, PlanChange::moved), 1);
+  EXPECT_EQ(count(d, PlanChange::gone), 1);
+  EXPECT_EQ(count(d, PlanChange::obstacle), 2);  // both of its faces
+  // Made in the plan, all of them leave nothing to find.
+  const auto made = apply_changes(plan, d.items);
+  EXPECT_TRUE(difference(made, truth).items.empty());
 }
 
 TEST(CompareWithPlan, FindsANewCut) {

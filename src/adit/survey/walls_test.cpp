@@ -153,6 +153,24 @@ TEST(SurveyWalls, LetsWallsEndAtTheWallsTheyMeet) {
   EXPECT_EQ(sides, 2);
 }
 
+TEST(SurveyWalls, TakesWhatIsFarForWallsWhenSeveralVisitsOrScansMetIt) {
+  const auto walls = room(30.0, 6.0);
+  WallOptions options;
+  options.sure_range_m = 10.0;
+  const auto end_wall = [&](int scans, const std::vector<int>& visits) {
+    const auto posed = drive(walls, {{3.0, 3.0}, {3.0, 3.0}, scans});
+    for (const Segment& s : survey_walls(posed, all_round().model, options, visits).segments()) {
+      if (s.a.x() > 29.0 && s.b.x() > 29.0) return true;
+    }
+    return false;
+  };
+  options.min_far_scans = 1000;
+  EXPECT_FALSE(end_wall(10, std::vector<int>(10, 0)));
+  EXPECT_TRUE(end_wall(10, {0, 0, 0, 0, 0, 1, 1, 1, 1, 1}));
+  options.min_far_scans = 6;
+  EXPECT_TRUE(end_wall(10, std::vector<int>(10, 0)));
+}
+
 TEST(SurveyWalls, SaysNothingWithoutScans) {
   EXPECT_TRUE(survey_walls({}, ScannerModel{}).lines.empty());
 }
