@@ -93,6 +93,10 @@ PlaceIndex PlaceIndex::build(const LineMap& map, const PlaceIndexOptions& option
   std::vector<Row> rows(row_count);
   share_out(row_count, threads,
             [&] { return RowBuilder(map, options, origin, pitch, columns, rows); });
+  std::size_t count = 0;
+  for (const Row& row : rows) count += row.cells.size();
+  arrays.cells.reserve(count);
+  arrays.codes.reserve(count);
   for (Row& row : rows) {
     arrays.cells.insert(arrays.cells.end(), row.cells.begin(), row.cells.end());
     arrays.codes.insert(arrays.codes.end(), row.codes.begin(), row.codes.end());
