@@ -76,7 +76,7 @@ Result<RunMap> make_map(const Inputs& inputs, const Start& start,
   const PlanLevel& plan = inputs.plans[*level];
   run.level = plan.name;
   run.map = LineMap::build(plan.plan.segments, configuration.map, &run.cleaning);
-  if (start.beginning.is_anywhere && !run.places) {
+  if ((start.beginning.is_anywhere || !arguments.index.empty()) && !run.places) {
     auto places = index_of(run.map, index, plan.name);
     if (!places) return tl::unexpected(places.error());
     run.places = std::move(*places);

@@ -1,6 +1,7 @@
 #include "mine_levels.hpp"
 
 #include <fmt/core.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -22,7 +23,8 @@ std::string file_of(const IndexSettings& settings, const std::string& level) {
 /// None where there is no such file yet, or one of another plan.
 Result<std::optional<PlaceIndex>> read_index(const std::string& file, const LineMap& map,
                                              const PlaceIndexOptions& options) {
-  if (file.empty() || !std::filesystem::exists(file)) return std::optional<PlaceIndex>();
+  std::error_code unknown;
+  if (file.empty() || !std::filesystem::exists(file, unknown)) return std::optional<PlaceIndex>();
   std::ifstream in(file, std::ios::binary);
   if (!in) return fail("cannot be read", file);
   auto read = read_places(map, options, in);
@@ -36,16 +38,17 @@ Result<std::optional<PlaceIndex>> read_index(const std::string& file, const Line
 /// Under another name first, so that nobody reads half of it.
 Result<void> write_index(const std::string& file, const PlaceIndex& index, const LineMap& map,
                          const PlaceIndexOptions& options) {
-  const std::string part = file + ".part";
+  const std::string part = fmt::format("{}.{}.part", file, ::getpid());
   std::ofstream out(part, std::ios::binary);
-  if (const auto written = write_places(index, map, options, out); !written) {
-    return fail(written.error().message, part);
-  }
+  const auto written = write_places(index, map, options, out);
   out.close();
   std::error_code error;
-  std::filesystem::rename(part, file, error);
-  if (error) return fail(error.message(), file);
-  return {};
+  if (written && out) std::filesystem::rename(part, file, error);
+  if (written && out && !error) return {};
+  std::error_code ignored;
+  std::filesystem::remove(part, ignored);
+  if (!written) return fail(written.error().message, file);
+  return fail(error ? error.message() : "the index cannot be written", file);
 }
 
 }  // namespace

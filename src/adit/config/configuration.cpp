@@ -107,6 +107,14 @@ constexpr std::array kAboveZero = {
     "survey_known_places.apart_m",
     "survey_known_places.plan_sigma_m",
     "survey_changes.step_m",
+    "survey_positions.given_within_rad",
+    "survey_positions.coarse_step_rad",
+    "survey_positions.point_spacing_m",
+    "survey_positions.coarse_blur_m",
+    "survey_positions.fine_blur_m",
+    "survey_positions.wall_error_m",
+    "relocation.least_map_ratio",
+    "survey_walls.visit_m",
     "survey_walls.cell_m",
     "survey_walls.merge_m",
     "survey_walls.smooth_m",
@@ -115,14 +123,15 @@ constexpr std::array kAboveZero = {
 
 /// Probabilities of what may or may not happen.
 constexpr std::array kProbabilities = {
-    "refinement.clutter_begin_ratio",
-    "refinement.clutter_end_ratio",
-    "refinement.long_ratio",
-    "protection.risk",
+    "refinement.clutter_begin_ratio", "refinement.clutter_end_ratio",
+    "refinement.long_ratio",          "protection.risk",
+    "likelihood.leave_ratio",         "likelihood.back_ratio",
+    "likelihood.long_ratio",          "likelihood.dropout_ratio",
+    "likelihood.gone_ratio",
 };
 
 /// Counts that cannot be 0, and the least that they can be.
-constexpr std::array<std::pair<const char*, int>, 12> kLeastCounts = {{
+constexpr std::array<std::pair<const char*, int>, 13> kLeastCounts = {{
     {"refinement.max_iterations", 1},
     {"extraction.min_line_points", 3},
     {"matching.max_candidates", 1},
@@ -131,6 +140,7 @@ constexpr std::array<std::pair<const char*, int>, 12> kLeastCounts = {{
     {"survey_surfaces.most_points", 30},
     {"survey_alignment.max_iterations", 1},
     {"survey_tracking.local_keyframes", 1},
+    {"survey_joint.rounds", 1},
     {"survey_loops.query_keyframes", 1},
     {"survey_loops.target_keyframes", 1},
     {"survey_loops.query_stride", 1},

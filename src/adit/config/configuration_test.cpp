@@ -8,7 +8,7 @@
 namespace adit {
 namespace {
 
-constexpr int kBoundedKeys = 60;  // that cannot be 0
+constexpr int kBoundedKeys = 74;  // that cannot be 0
 
 LoadedConfiguration loaded(std::string_view text) {
   auto read = parse_configuration(text, "c.toml");
@@ -199,7 +199,7 @@ TEST(Configuration, SomeKeysCannotBeZero) {
 
 TEST(Configuration, ProbabilitiesLieBetweenZeroAndOne) {
   for (const char* name : {"refinement.clutter_begin_ratio", "refinement.clutter_end_ratio",
-                           "refinement.long_ratio", "protection.risk"}) {
+                           "refinement.long_ratio", "protection.risk", "likelihood.gone_ratio"}) {
     const std::string key = name;
     for (const char* value : {"0", "-0.1", "1", "1.5", "inf", "nan", "\"0.1\""})
       EXPECT_EQ(error_of(key + " = " + value + "\n"),

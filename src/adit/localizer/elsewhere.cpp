@@ -79,6 +79,7 @@ bool Localizer::is_doubtful() const {
 
 /// Whether a pose elsewhere explains much more of the scan than the trusted one did.
 bool Localizer::doubts(const RelocationResult& found) const {
+  if (!is_doubt_ || found.verdict == Status::lost) return false;
   const Pose2 own = tracker_.estimate().pose * inverse(since_search_.estimate().pose);
   return std::any_of(found.poses.begin(), found.poses.end(), [&](const RankedPose& pose) {
     return explains(pose.quality, settings_.status) &&
@@ -93,8 +94,8 @@ void Localizer::take_search() {
   const RelocationResult found = finder_.take();
   if (hypotheses_.empty() && !is_anywhere_ && !trust_.contradicted()) {
     if (!doubts(found)) {
-      doubts_.note_failure(settings_.recovery);
-      return;
+      if (is_doubt_) doubts_.note_failure(settings_.recovery);
+      return;  // if it was lost, the scans have found it meanwhile
     }
     trust_.doubt();
   }
@@ -152,6 +153,7 @@ void Localizer::seek_elsewhere(const LaserScan& scan) {
   finder_.begin(query_for(scan), finder_options());
   schedule_.begin(settings_.recovery);
   is_confirmed_ = false;
+  is_doubt_ = hypotheses_.empty() && !is_lost;
   doubted_ = quality_of(scan_fit_).evidence_ratio;
   since_search_.start({});
 }

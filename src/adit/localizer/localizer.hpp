@@ -164,7 +164,8 @@ class Localizer {
   PlaceFinder finder_;
   SearchSchedule schedule_;
   SearchSchedule doubts_;  // of poses that are trusted
-  double doubted_ = 0.0;   // what the trusted pose explained of the scan that is looked for
+  bool is_doubt_ = false;  // the search under way is for one of them
+  double doubted_ = 0.0;   // what that pose explained of the scan that is looked for
   Hypotheses hypotheses_;
   PoseTracker since_search_;   // dead reckoning from where the scan that is looked for was taken
   double trusted_m_ = 0.0;     // way since the pose was found

@@ -197,6 +197,7 @@ void Localizer::track_pose() {
   if (believed_) {
     trusted_m_ += way_m_;
     schedule_.note_success();
+    if (clear_) doubts_.note_success();
   }
   // What is not trusted may still be the truth: all that explains its scan is taken in.
   const bool helps = quality.converged && quality.agrees &&

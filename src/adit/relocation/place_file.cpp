@@ -13,7 +13,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "indices are written as they lie");
 
-constexpr std::uint64_t kMagic = 0x3158444954494441u;  // "ADITIDX1"
+constexpr std::uint64_t kMagic = 0x3258444954494441u;  // "ADITIDX2"
 
 /// FNV-1a (Fowler, Noll, Vo), of eight bytes at a time.
 class Hash {
@@ -22,6 +22,18 @@ class Hash {
   void add(std::uint64_t word) {
     value_ = (value_ ^ word) * 0x100000001B3u;
     value_ ^= value_ >> 29;
+  }
+  template <class Value>
+  void add_all(const std::vector<Value>& values) {
+    static_assert(std::is_trivially_copyable_v<Value>);
+    const auto* bytes = reinterpret_cast<const char*>(values.data());
+    std::size_t left = values.size() * sizeof(Value);
+    for (; left > 0; bytes += std::min(left, sizeof(std::uint64_t)),
+                     left -= std::min(left, sizeof(std::uint64_t))) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes, std::min(left, sizeof word));
+      add(word);
+    }
   }
   std::uint64_t value() const { return value_; }
 
@@ -41,6 +53,17 @@ std::uint64_t hash_of(const LineMap& map, const PlaceIndexOptions& options) {
   PlaceIndexOptions::visit(options, [&](const char*, const auto& value, const char*) {
     hash.add(static_cast<double>(value));
   });
+  return hash.value();
+}
+
+/// Of what an index holds, so that a damaged file is seen.
+std::uint64_t hash_of(const PlaceArrays& arrays) {
+  Hash hash;
+  hash.add(arrays.origin_x);
+  hash.add(arrays.origin_y);
+  hash.add(arrays.pitch_m);
+  hash.add_all(arrays.cells);
+  hash.add_all(arrays.codes);
   return hash.value();
 }
 
@@ -90,6 +113,7 @@ Result<void> write_places(const PlaceIndex& places, const LineMap& map,
   const PlaceArrays& arrays = places.arrays();
   put(out, kMagic);
   put(out, hash_of(map, options));
+  put(out, hash_of(arrays));
   put(out, arrays.origin_x);
   put(out, arrays.origin_y);
   put(out, arrays.pitch_m);
@@ -107,10 +131,12 @@ Result<std::optional<PlaceIndex>> read_places(const LineMap& map, const PlaceInd
   if (!get(in, hash)) return fail("the index is cut short");
   if (hash != hash_of(map, options)) return std::optional<PlaceIndex>();
   PlaceArrays arrays;
-  const bool whole = get(in, arrays.origin_x) && get(in, arrays.origin_y) &&
+  std::uint64_t body = 0;
+  const bool whole = get(in, body) && get(in, arrays.origin_x) && get(in, arrays.origin_y) &&
                      get(in, arrays.pitch_m) && get_all(in, arrays.cells) &&
                      get_all(in, arrays.codes) && arrays.cells.size() == arrays.codes.size();
   if (!whole) return fail("the index is cut short");
+  if (body != hash_of(arrays)) return fail("the index is damaged");
   return std::optional<PlaceIndex>(std::in_place, map, std::move(arrays));
 }
 

@@ -69,6 +69,17 @@ TEST(PlaceFile, DoesNotTakeOneMadeWithOtherOptions) {
   EXPECT_FALSE(read->has_value());
 }
 
+TEST(PlaceFile, RefusesOneThatIsDamaged) {
+  const std::string whole = saved(room(0.0), {});
+  constexpr std::size_t kHeader = 24;  // what it is, of what plan, and what it holds
+  for (std::size_t at = kHeader; at < whole.size(); at += whole.size() / 13) {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
+    std::istringstream in(damaged);
+    EXPECT_FALSE(read_places(room(0.0), {}, in)) << at;
+  }
+}
+
 TEST(PlaceFile, RefusesWhatIsNoIndex) {
   std::istringstream in("x1,y1,x2,y2\n0.0,0.0,20.0,0.0\n");
   const auto read = read_places(room(0.0), {}, in);

@@ -263,12 +263,12 @@ BeamShares ScanLikelihood::shares_at(const LineMap& map, const Pose2& map_from_l
     out.before += beam.range < nearest;
     out.through += beam.range > farthest;
   }
+  out.missing /= std::max(1.0, expected);
   if (!(out.returns > 0.0)) return out;
   out.before /= out.returns;
   out.through /= out.returns;
   out.unmapped /= out.returns;
   out.on_wall = 1.0 - out.before - out.through - out.unmapped;
-  out.missing /= expected;
   return out;
 }
 
