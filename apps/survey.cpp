@@ -18,17 +18,19 @@ struct SurveyFile {
   std::function<Result<void>(const std::string&)> write;
 };
 
-/// All of them or none: after a failure what was written before it is taken away.
+/// All of them or none: after a failure what was newly made before it is taken away.
 Result<void> write_files(const std::vector<SurveyFile>& files) {
-  std::vector<std::string> written;
+  namespace fs = std::filesystem;
+  std::vector<std::string> made;
   for (const SurveyFile& file : files) {
     if (file.path.empty()) continue;
+    std::error_code code;
+    const bool is_new = fs::symlink_status(file.path, code).type() == fs::file_type::not_found;
     if (const auto done = file.write(file.path); !done) {
-      std::error_code code;
-      for (const std::string& earlier : written) std::filesystem::remove(earlier, code);
+      for (const std::string& earlier : made) fs::remove(earlier, code);
       return done;
     }
-    written.push_back(file.path);
+    if (is_new) made.push_back(file.path);
   }
   return {};
 }
@@ -79,6 +81,10 @@ std::string summary_of(const Surveyed& surveyed) {
         fmt::format(", {} kept, {} loop closures", surveyed.keyframes, surveyed.closures.size());
   } else {
     text += fmt::format(" of {} stations", surveyed.stations.size());
+    for (const Vector2d& p : surveyed.unplaced) {
+      text +=
+          fmt::format("\nleft out, no heading was found: station at {:.2f}, {:.2f}", p.x(), p.y());
+    }
   }
   if (!surveyed.plan.empty() && surveyed.stations.empty()) {
     text += fmt::format(", {} found in the plan", surveyed.places_in_plan);
@@ -105,6 +111,10 @@ int run_survey(const SurveyArguments& arguments) {
   }
   if (const auto written = write_results(*surveyed, *call, arguments); !written) {
     return report(written.error());
+  }
+  if (surveyed->of_other_lasers > 0) {
+    fmt::print(stderr, "{} scans of other lasers than the first are in no wall\n",
+               surveyed->of_other_lasers);
   }
   fmt::print("{}wrote {}\n", summary_of(*surveyed), arguments.output);
   return kDone;

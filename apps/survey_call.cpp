@@ -36,9 +36,27 @@ Result<void> check_ending(const std::string& path, std::string_view what,
   return fail(std::string(what) + " must end in " + wanted + ", not as in " + in_quotes(path));
 }
 
+/// Else the later would take the place of the earlier.
+Result<void> check_names_differ(std::initializer_list<std::string> paths) {
+  std::set<fs::path> names;
+  for (const std::string& path : paths) {
+    if (path.empty()) continue;
+    std::error_code code;
+    if (!names.insert(fs::weakly_canonical(fs::absolute(path), code)).second) {
+      return fail("two outputs go to " + in_quotes(path));
+    }
+  }
+  return {};
+}
+
 Result<void> check_outputs(const SurveyArguments& a) {
   for (const std::string& path : {a.output, a.trajectory, a.walls, a.report, a.picture}) {
     if (const auto checked = check_folder(path); !checked) return checked;
+  }
+  if (const auto checked =
+          check_names_differ({a.output, a.trajectory, a.walls, a.report, a.picture});
+      !checked) {
+    return checked;
   }
   if (const auto checked = check_ending(a.walls, "--walls", {".csv"}); !checked) return checked;
   if (!a.picture.empty()) {

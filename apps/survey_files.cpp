@@ -85,6 +85,7 @@ Json changes_report(const PlanDifference& difference) {
 Json survey_report(const Surveyed& surveyed) {
   Json json = Json::object();
   json["scans"] = surveyed.trajectory.size();
+  json["scans_of_other_lasers"] = surveyed.of_other_lasers;
   json["walls"] = walls_report(surveyed.walls);
   if (surveyed.stations.empty()) {
     json["keyframes"] = surveyed.keyframes;
@@ -92,6 +93,12 @@ Json survey_report(const Surveyed& surveyed) {
     json["closures"] = closures_report(surveyed);
   } else {
     json["stations"] = surveyed.stations.size();
+    json["without_heading"] = Json::array();
+    for (const Vector2d& p : surveyed.unplaced) {
+      Json row = Json::array();
+      for (const double x : {p.x(), p.y()}) row.push_back(x);
+      json["without_heading"].push_back(std::move(row));
+    }
   }
   if (surveyed.difference) json["difference"] = changes_report(*surveyed.difference);
   json["settings"] = settings_report(surveyed.settings);

@@ -16,6 +16,9 @@
 namespace adit {
 namespace {
 
+/// Walls are made with the model of one laser alone; the others help to follow the drive.
+constexpr int kWallScanner = 0;
+
 /// A bar for each stage of a survey.
 class StageBars {
  public:
@@ -95,10 +98,19 @@ Result<void> survey_drive(Log& log, const SurveyArguments& arguments, const Surv
     return fail("no scan was found in the plan; --start says where the drive began",
                 arguments.update);
   }
+  if (!drive.solved) {
+    return fail("the poses of the drive cannot be solved for: its scans or odometry contradict",
+                arguments.log);
+  }
   for (std::size_t i = 0; i < log.scans.size(); ++i) {
     const SurveyedPose& at = drive.poses[i];
-    out.trajectory.push_back({log.scans[i].scan.stamp, at.map_from_vehicle});
-    out.scans.push_back({std::move(log.scans[i].scan), at.map_from_vehicle, at.covariance});
+    LaserScan& scan = log.scans[i].scan;
+    out.trajectory.push_back({scan.stamp, at.map_from_vehicle});
+    if (scan.scanner != kWallScanner) {
+      ++out.of_other_lasers;
+      continue;
+    }
+    out.scans.push_back({std::move(scan), at.map_from_vehicle, at.covariance});
   }
   log.scans = {};
   out.keyframes = drive.keyframes.size();
@@ -118,7 +130,13 @@ Result<void> survey_positions(Log& log, const SurveyArguments& arguments, StageB
   const auto known = read_trajectory(arguments.poses);
   if (!known) return tl::unexpected(known.error());
   std::vector<LaserScan> scans;
-  for (LogScan& entry : log.scans) scans.push_back(std::move(entry.scan));
+  for (LogScan& entry : log.scans) {
+    if (entry.scan.scanner == kWallScanner) {
+      scans.push_back(std::move(entry.scan));
+    } else {
+      ++out.of_other_lasers;
+    }
+  }
   log.scans = {};
   const Configuration& values = out.settings.configuration;
   const auto placed = place_scans(scans, *known, values.positions.headings);
@@ -128,12 +146,18 @@ Result<void> survey_positions(Log& log, const SurveyArguments& arguments, StageB
       [&](double part) { bars.show("surveying from known positions", part); });
   if (!survey) return fail(survey.error().message, arguments.log);
   for (const SurveyedScan& scan : survey->scans) {
+    if (!survey->stations[static_cast<std::size_t>(scan.station)].placed) continue;
     out.trajectory.push_back({scans[scan.scan].stamp, scan.map_from_vehicle});
-    out.scans.push_back({std::move(scans[scan.scan]), scan.map_from_vehicle, Matrix3d::Zero()});
   }
   for (const SurveyedStation& s : survey->stations) {
-    out.stations.push_back({s.position.x(), s.position.y(), s.heading.heading_rad});
+    if (s.placed) {
+      out.stations.push_back({s.position.x(), s.position.y(), s.heading.heading_rad});
+    } else {
+      out.unplaced.push_back(s.position);
+    }
   }
+  out.scans = std::move(survey->levelled);
+  out.visits = std::move(survey->visits);
   out.walls = std::move(survey->walls);
   return {};
 }
@@ -160,7 +184,7 @@ Result<Surveyed> survey_log(const SurveyArguments& arguments, const SurveyCall& 
   if (!arguments.update.empty()) {
     const Configuration& values = out.settings.configuration;
     out.difference = compare_with_plan(out.plan, out.walls, out.scans, values.localizer.scanner,
-                                       values.changes, values.walls);
+                                       values.changes, values.walls, out.visits);
   }
   return out;
 }

@@ -26,12 +26,15 @@ struct Surveyed {
   LogSettings settings;
   LogSummary log;
   std::vector<StampedPose> trajectory;  ///< in the log's order
-  std::vector<PosedScan> scans;
+  std::vector<PosedScan> scans;         ///< that the walls are made of
+  std::vector<int> visits;              ///< of these, where they are known
+  std::size_t of_other_lasers = 0;      ///< scans that are in no wall: walls are those of laser 0
   WallMap walls;
   std::size_t keyframes = 0;  ///< of a drive; 0 of known positions
   std::size_t pairs = 0;
   std::vector<SurveyClosure> closures;
   std::vector<Pose2> stations;     ///< of known positions
+  std::vector<Vector2d> unplaced;  ///< positions whose heading was not found
   std::vector<Segment> plan;       ///< that is updated
   std::size_t places_in_plan = 0;  ///< scans that were found in it
   std::optional<PlanDifference> difference;

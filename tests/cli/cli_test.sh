@@ -715,7 +715,7 @@ ring_drive() {
   printf '%s\n' '0 1.5 1.5 0 0 0 0 1' '1 18.5 1.5 0 0 0 0 1' "2 18.5 1.5 0 0 0 $quarter" "3 18.5 12.5 0 0 0 $quarter" \
     '4 18.5 12.5 0 0 0 1 0' '5 1.5 12.5 0 0 0 1 0' "6 1.5 12.5 0 0 0 -$quarter" "7 1.5 1.5 0 0 0 -$quarter" \
     '8 1.5 1.5 0 0 0 0 1' '9 10 1.5 0 0 0 0 1' >path.tum
-  expect 0 simulate ring.csv --path path.tum --scanner sick --speed 1 --odometry 0.04,2,0.04 --seed 3 -o "$1"
+  expect 0 simulate ring.csv --path path.tum --scanner sick --speed 2 --odometry 0.04,2,0.04 --seed 3 -o "$1"
 }
 
 # A drive from dead reckoning and scans alone: its poses, its walls, and the same from run to run.
@@ -820,6 +820,8 @@ survey_bad_input() {
     expect 2 $call --picture e.gif -o e
     expect 2 $call --walls e.txt -o e
     expect 2 $call -o e.dxf
+    expect 2 $call --trajectory e -o ./e
+    says 'two outputs'
     expect 1 $call -o none/e.csv
     says 'no such folder'
   }
@@ -846,6 +848,10 @@ survey_bad_input() {
   mkdir folder.json
   bad folder.json survey --log sim/log.clf --trajectory e.tum --report folder.json -o e
   absent e.tum e.json
+  # but not what was there before
+  echo kept >e.tum
+  bad folder.json survey --log sim/log.clf --trajectory e.tum --report folder.json -o e
+  [ -f e.tum ] || die 'a file that was there before is gone'
 }
 
 "$3"

@@ -29,8 +29,6 @@ Linearization linearize(std::span<const SurfacePoint> source, const SurfaceMap& 
     const Vector3d jacobian(normal.x(), normal.y(), cross(arm, normal));
     out.information += w * jacobian * jacobian.transpose();
     out.gradient += w * r * jacobian;
-    out.squared += w * r * r;
-    out.weight += w;
   }
   return out;
 }
@@ -86,7 +84,6 @@ Alignment align(std::span<const SurfacePoint> source, const SurfaceMap& target,
   out.information = lin.information / variance;
   out.matched = lin.matched;
   out.matched_share = lin.tried > 0 ? static_cast<double>(lin.matched) / lin.tried : 0.0;
-  out.rms_m = lin.weight > 0.0 ? std::sqrt(lin.squared / lin.weight) : 0.0;
   return out;
 }
 

@@ -20,7 +20,6 @@ struct Alignment {
   Matrix3d information = Matrix3d::Zero();
   int matched = 0;             ///< points that found a wall at the end
   double matched_share = 0.0;  ///< of those with a normal
-  double rms_m = 0.0;          ///< of the matched, robustly weighted, across their walls
 };
 
 /// Robust point-to-line alignment (Chen and Medioni 1991) by Gauss-Newton with the weights of
@@ -35,8 +34,6 @@ struct Linearization {
   Vector3d gradient = Vector3d::Zero();
   int matched = 0;
   int tried = 0;
-  double squared = 0.0;
-  double weight = 0.0;
 };
 /// Takes out what walls seem to say of a direction in which they do not hold the pose (after Zhang,
 /// Kaess and Singh 2016).

@@ -11,6 +11,7 @@ struct CorrelativeSearch::Query {
   const SearchWindow& window;
   double step_rad = 0.0;
   int angles = 0;  // to either side
+  int reach = 0;   // cells to every side
   const Pose2* other_than = nullptr;
   double apart_m = 0.0;
   double apart_rad = 0.0;
@@ -117,14 +118,16 @@ void CorrelativeSearch::descend(const Query& query, const Node& node) {
     for (const int dx : {0, half}) {
       const int column = node.column + dx;
       const int row = node.row + dy;
+      if (column > query.reach || row > query.reach) continue;
       const double bound = score(query.field, node.angle, level, column, row) -
                            query.least_cost(node.angle, column, row, half);
       children[count++] = {static_cast<float>(bound), node.angle, level, column, row};
     }
   }
-  std::stable_sort(children.begin(), children.end(),
+  const std::span<Node> inside(children.data(), count);
+  std::stable_sort(inside.begin(), inside.end(),
                    [](const Node& a, const Node& b) { return a.bound > b.bound; });
-  for (const Node& child : children) descend(query, child);
+  for (const Node& child : inside) descend(query, child);
 }
 
 std::optional<SearchPeak> CorrelativeSearch::best(const EvidenceField& field,
@@ -139,7 +142,8 @@ std::optional<SearchPeak> CorrelativeSearch::best(const EvidenceField& field,
   const int reach = static_cast<int>(std::ceil(window.reach_m / field.cell_m()));
   const double per_nat =
       kPointsPerNat / static_cast<double>(std::max<std::size_t>(points_.size(), 60));
-  const Query query{field, window, step_rad, angles, other_than, apart_m, apart_rad, per_nat};
+  const Query query{field,      window,  step_rad,  angles, reach,
+                    other_than, apart_m, apart_rad, per_nat};
   rotate(field, window, step_rad, angles);
   int level = 0;
   while (level + 1 < EvidenceField::kLevels && (2 << level) < reach) ++level;

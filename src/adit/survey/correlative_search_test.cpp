@@ -79,6 +79,56 @@ RC_GTEST_PROP(CorrelativeSearch, FindsWhatABruteForceSearchFinds, ()) {
   }
 }
 
+/// The best of every pose of the search's own grid in a window.
+double best_in_window(const EvidenceField& field, const ScanShape& shape,
+                      const SearchWindow& window, double step_rad) {
+  const int reach = static_cast<int>(std::ceil(window.reach_m / field.cell_m()));
+  const int angles = static_cast<int>(std::ceil(window.reach_rad / step_rad));
+  double best = 0.0;
+  for (int a = -angles; a <= angles; ++a) {
+    for (int row = -reach; row <= reach; ++row) {
+      for (int column = -reach; column <= reach; ++column) {
+        Pose2 pose = window.middle;
+        pose.theta += a * step_rad;
+        const RigidTransform carry_by(pose);
+        double sum = 0.0;
+        for (const SurfacePoint& p : shape.points) {
+          const Vector2d at = carry_by.point(p.point.cast<double>());
+          sum += field.at(0, field.column(at.x()) + column, field.row(at.y()) + row) / 255.0;
+        }
+        best = std::max(best, sum / static_cast<double>(shape.points.size()));
+      }
+    }
+  }
+  return best;
+}
+
+/// Also where something better lies just beyond the window.
+RC_GTEST_PROP(CorrelativeSearch, FindsTheBestOfItsWindowExactly, ()) {
+  constexpr double kLeastRadius = 2.0;  // m: points nearer than this turn as those there
+  ScanShape shape;
+  for (int i = 0; i < 6; ++i) {  // no two points in one cell
+    shape.points.push_back({Vector2d(-1.05 + 0.4 * i, -0.85).cast<float>(), {0.0F, 1.0F}});
+    shape.points.push_back({Vector2d(-1.25, -0.65 + 0.3 * i).cast<float>(), {1.0F, 0.0F}});
+  }
+  EvidenceField field;
+  const PlacedShape target{&shape, {}};
+  field.build({&target, 1}, true, {});
+  CorrelativeSearch search;
+  search.set_points({&target, 1}, field);
+  RC_ASSERT(search.size() == shape.points.size());
+  const Pose2 middle{*rc::gen::inRange(-120, 120) * 0.01, *rc::gen::inRange(-120, 120) * 0.01,
+                     *rc::gen::inRange(-20, 20) * 0.01};
+  const SearchWindow window{middle, *rc::gen::inRange(3, 10) * 0.1 - 0.05, 0.1, 1e3, 1e3};
+  const auto found = search.best(field, window, 0.0);
+  RC_ASSERT(found.has_value());
+  const double step_rad = field.cell_m() / kLeastRadius;
+  RC_ASSERT(std::abs(found->score - best_in_window(field, shape, window, step_rad)) < 1e-4);
+  const double reach = std::ceil(window.reach_m / field.cell_m()) * field.cell_m() + 1e-9;
+  RC_ASSERT(std::abs(found->pose.x - middle.x) < reach);
+  RC_ASSERT(std::abs(found->pose.y - middle.y) < reach);
+}
+
 TEST(CorrelativeSearch, FindsTheTwinElsewhere) {
   // Two rooms alike, 8 m apart.
   Random random(5);

@@ -2,8 +2,10 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <queue>
-#include <tuple>
+#include <utility>
 
 namespace adit {
 namespace {

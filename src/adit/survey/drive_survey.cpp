@@ -31,8 +31,14 @@ void DriveSurvey::add(const LaserScan& scan, const ScannerModel& scanner,
 void DriveSurvey::know_place(std::size_t scan, const Pose2& map_from_vehicle,
                              const Matrix3d& covariance) {
   const TrackedScan& at = tracker_.scans()[scan];
-  if (tracker_.keyframes()[at.keyframe].scan != scan) return;  // its keyframe will do
-  known_.push_back({at.keyframe, map_from_vehicle, covariance});
+  // One of a keyframe will do: the first is its own, or the one nearest after it.
+  if (!known_.empty() && known_.back().keyframe == at.keyframe) return;
+  const Pose2 place = map_from_vehicle * inverse(at.keyframe_from_scan);
+  const Vector2d arm = place.translation() - map_from_vehicle.translation();
+  Matrix3d carry_by = Matrix3d::Identity();
+  carry_by(0, 2) = -arm.y();
+  carry_by(1, 2) = arm.x();
+  known_.push_back({at.keyframe, place, carry_by * covariance * carry_by.transpose()});
 }
 
 std::vector<PoseConstraint> DriveSurvey::chain() const {
@@ -57,6 +63,10 @@ std::vector<PoseConstraint> DriveSurvey::dead_reckoning() const {
   return out;
 }
 
+void DriveSurvey::solve_for(std::span<const PoseConstraint> constraints) {
+  solved_ = solve_pose_graph(poses_, constraints, kSolverIterations).usable && solved_;
+}
+
 bool DriveSurvey::close_loops_within(double limit_m, int threads) {
   std::vector<PoseConstraint> constraints = chain();
   for (const Closure& c : closures_) constraints.push_back(constraint_of(c));
@@ -70,7 +80,7 @@ bool DriveSurvey::close_loops_within(double limit_m, int threads) {
     closures_.push_back(c);
     constraints.push_back(constraint_of(c));
   }
-  solve_pose_graph(poses_, constraints, kSolverIterations);
+  solve_for(constraints);
   const std::size_t before = closures_.size();
   std::erase_if(closures_, [&](const Closure& c) {
     return squared_error(constraint_of(c), poses_[c.from], poses_[c.to]) > kRefutedChiSquare;
@@ -78,7 +88,7 @@ bool DriveSurvey::close_loops_within(double limit_m, int threads) {
   if (closures_.size() < before) {
     constraints = chain();
     for (const Closure& c : closures_) constraints.push_back(constraint_of(c));
-    solve_pose_graph(poses_, constraints, kSolverIterations);
+    solve_for(constraints);
   }
   return true;
 }
@@ -105,7 +115,7 @@ void DriveSurvey::register_jointly(int threads, const DriveProgress& progress) {
                                   options_.alignment, threads);
     pairs_ = constraints_.size();
     for (const PoseConstraint& c : dead_reckoning()) constraints_.push_back(c);
-    solve_pose_graph(poses_, constraints_, kSolverIterations);
+    solve_for(constraints_);
   }
 }
 
@@ -126,6 +136,7 @@ std::size_t DriveSurvey::torn() const {
 void DriveSurvey::solve(double most_drift_m, int threads, const DriveProgress& progress) {
   poses_.clear();
   closures_.clear();
+  solved_ = true;
   for (const Keyframe& k : tracker_.keyframes()) poses_.push_back(k.pose);
   close_loops(most_drift_m, threads, progress);
   register_jointly(threads, progress);
@@ -133,7 +144,9 @@ void DriveSurvey::solve(double most_drift_m, int threads, const DriveProgress& p
 
 void DriveSurvey::solve_in_map() {
   if (known_.empty()) return;
-  solve_with_known_places(poses_, constraints_, known_, options_.known_places, kSolverIterations);
+  const GraphSummary solution = solve_with_known_places(poses_, constraints_, known_,
+                                                        options_.known_places, kSolverIterations);
+  solved_ = solution.usable && solved_;
   map_from_drive_ = {};
 }
 
@@ -189,10 +202,12 @@ DriveResult DriveSurvey::result() const {
   for (const Keyframe& k : tracker_.keyframes()) out.keyframes.push_back(k.scan);
   out.closures = closures_;
   out.pairs = pairs_;
+  out.solved = solved_;
   return out;
 }
 
-DriveResult DriveSurvey::finish(int threads, const DriveProgress& progress) {
+DriveResult DriveSurvey::finish(int threads, const DriveProgress& given) {
+  const DriveProgress progress = given ? given : [](const char*, double) {};
   const LoopOptions& loops = options_.loops;
   solve(loops.last_limit_m, threads, progress);
   // Closures over less drift are surer: rather few that are true than many of which some are not.

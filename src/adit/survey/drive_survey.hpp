@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "adit/survey/drive_options.hpp"
@@ -13,7 +14,9 @@ namespace adit {
 /// Where the machine was when a scan was taken.
 struct SurveyedPose {
   Pose2 map_from_vehicle;
-  Matrix3d covariance = Matrix3d::Zero();  ///< against the map, over (x, y, theta) in it
+  /// Of its keyframe against those around it, over (x, y, theta) in the map: what the whole drive
+  /// or the map may be off is not in it.
+  Matrix3d covariance = Matrix3d::Zero();
 };
 
 /// What a survey of a drive came to.
@@ -22,10 +25,11 @@ struct DriveResult {
   std::vector<SurveyedPose> poses;
   std::vector<std::size_t> keyframes;  ///< which of the scans were kept
   std::vector<Closure> closures;       ///< between keyframes, as they were accepted
-  std::size_t pairs = 0;               ///< of keyframes that were laid onto each other at the end
+  std::size_t pairs = 0;  ///< constraints from laying keyframes onto each other at the end
+  bool solved = true;     ///< false: a solution failed, and the poses are not to be believed
 };
 
-/// Says which part of a stage is done, 0 to 1.
+/// Says which part of a stage is done, 0 to 1; may be empty.
 using DriveProgress = std::function<void(const char* stage, double part)>;
 
 /// Makes a globally consistent trajectory from scans and dead reckoning alone.
@@ -38,12 +42,14 @@ class DriveSurvey {
 
   void add(const LaserScan& scan, const ScannerModel& scanner, const Pose2& odom_from_vehicle);
   /// Says where the vehicle was at a scan that has been added; the result is in that map's frame.
+  /// Comes in the order of the scans; the first between a keyframe and the next counts.
   void know_place(std::size_t scan, const Pose2& map_from_vehicle, const Matrix3d& covariance);
-  DriveResult finish(int threads, const DriveProgress& progress);
+  DriveResult finish(int threads, const DriveProgress& progress = {});
 
  private:
   std::vector<PoseConstraint> chain() const;
   std::vector<PoseConstraint> dead_reckoning() const;
+  void solve_for(std::span<const PoseConstraint> constraints);
   void solve(double most_drift_m, int threads, const DriveProgress& progress);
   void close_loops(double most_drift_m, int threads, const DriveProgress& progress);
   bool close_loops_within(double limit_m, int threads);
@@ -61,6 +67,7 @@ class DriveSurvey {
   std::vector<Closure> closures_;
   std::vector<PoseConstraint> constraints_;  // of the last solution
   std::size_t pairs_ = 0;
+  bool solved_ = true;
   std::vector<KnownPlace> known_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "adit/simulation/ray_caster.hpp"
 #include "adit/simulation/scanner.hpp"
 #include "adit/simulation/timed_path.hpp"
@@ -129,31 +131,30 @@ TEST(DriveSurvey, IsTheSameOnAnyNumberOfThreads) {
   }
 }
 
-/// Niches every 3 m on either side, all alike: no scan tells one stretch from the next.
-TEST(DriveSurvey, TakesNoNicheForAnother) {
-  std::vector<Vector2d> points;
-  constexpr int kNiches = 20;
-  for (int i = 0; i < kNiches; ++i) {
-    const double x = 3.0 * i;
-    for (const Vector2d& p :
-         {Vector2d(x, -1.2), {x + 1, -1.2}, {x + 1, -2}, {x + 2, -2}, {x + 2, -1.2}}) {
-      points.push_back(p);
-    }
+/// Between two keyframes, as many times as there are scans; in a map turned and moved against the
+/// odometry.
+TEST(DriveSurvey, TakesPlacesOfScansThatAreNoKeyframes) {
+  const ScannerSpec scanner = sick_lms();
+  const Drive run =
+      drive(ring(), drive_along(std::vector<Pose2>{{-1.2, -1.2, 0.0}, {6.0, -1.2, 0.0}}, 0.2, 0.6),
+            scanner);
+  const Pose2 map_from_world{30.0, -20.0, 1.0};
+  const std::vector<std::size_t> keyframes = survey(run, scanner.model, 1).keyframes;
+  ASSERT_LT(keyframes.size(), run.scans.size());
+  DriveSurvey survey({}, {});
+  for (std::size_t i = 0; i < run.scans.size(); ++i) {
+    survey.add(run.scans[i], scanner.model, run.odometry[i]);
   }
-  for (int i = kNiches; i > 0; --i) {
-    const double x = 3.0 * i;
-    for (const Vector2d& p :
-         {Vector2d(x, 1.2), {x - 1, 1.2}, {x - 1, 2}, {x - 2, 2}, {x - 2, 1.2}}) {
-      points.push_back(p);
-    }
+  for (std::size_t i = 0; i < run.scans.size(); ++i) {
+    if (std::find(keyframes.begin(), keyframes.end(), i) != keyframes.end()) continue;
+    survey.know_place(i, map_from_world * run.truth[i], 1e-4 * Matrix3d::Identity());
   }
-  ScannerSpec scanner = sick_lms();
-  scanner.model.max_range_m = 8.0;
-  const std::vector<Pose2> way = {{9, 0, 0}, {51, 0, 0}};
-  const Drive run = drive(outline(points), drive_along(way, 0.8, 0.6), scanner);
-  const DriveResult result = survey(run, scanner.model, 2);
-  EXPECT_TRUE(result.closures.empty());
-  EXPECT_LT(worst_error_m(run, poses_of(result)), 0.3);
+  const DriveResult result = survey.finish(1);
+  EXPECT_TRUE(result.solved);
+  for (std::size_t i = 0; i < run.scans.size(); ++i) {
+    const Pose2 expected = map_from_world * run.truth[i];
+    EXPECT_LT(difference(expected, result.poses[i].map_from_vehicle).norm(), 0.1) << "scan " << i;
+  }
 }
 
 }  // namespace

@@ -97,10 +97,13 @@ void EvidenceField::raise_levels() {
     const std::size_t half = std::size_t{1} << (level - 1);
     for (std::size_t y = 0; y < height; ++y) {
       const std::uint8_t* a = below.data() + y * width;
-      const std::uint8_t* b = below.data() + std::min(y + half, height - 1) * width;
+      const bool leaves = y + half >= height;  // above the grid nothing was seen
+      const std::uint8_t* b = leaves ? a : below.data() + (y + half) * width;
+      const std::uint8_t least = leaves ? unseen_ : 0;
       std::uint8_t* out = here.data() + y * width;
       for (std::size_t x = 0; x + half < width; ++x) {
-        out[x] = std::max(std::max(a[x], a[x + half]), std::max(b[x], b[x + half]));
+        out[x] =
+            std::max(least, std::max(std::max(a[x], a[x + half]), std::max(b[x], b[x + half])));
       }
       for (std::size_t x = width > half ? width - half : 0; x < width; ++x) {
         out[x] = std::max({a[x], b[x], unseen_});

@@ -57,10 +57,11 @@ Pose2 whole_motion(std::span<const Pose2> poses, std::span<const KnownPlace> kno
   return motion;
 }
 
-void solve_with_known_places(std::vector<Pose2>& poses, std::span<const PoseConstraint> constraints,
-                             std::span<const KnownPlace> known, const KnownPlacesOptions& options,
-                             int max_iterations) {
-  if (known.empty()) return;
+GraphSummary solve_with_known_places(std::vector<Pose2>& poses,
+                                     std::span<const PoseConstraint> constraints,
+                                     std::span<const KnownPlace> known,
+                                     const KnownPlacesOptions& options, int max_iterations) {
+  if (known.empty()) return {true, true, 0, 0.0};
   const Pose2 motion = whole_motion(poses, known);
   // The map itself is the first node, which stays.
   std::vector<Pose2> nodes = {Pose2{}};
@@ -87,8 +88,9 @@ void solve_with_known_places(std::vector<Pose2>& poses, std::span<const PoseCons
     all.push_back({0, place.keyframe + 1, place.map_from_vehicle, (alike * covariance).inverse(),
                    options.robust_sigmas});
   }
-  solve_pose_graph(nodes, all, max_iterations);
+  const GraphSummary solution = solve_pose_graph(nodes, all, max_iterations);
   poses.assign(nodes.begin() + 1, nodes.end());
+  return solution;
 }
 
 }  // namespace adit

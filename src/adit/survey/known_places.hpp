@@ -19,9 +19,10 @@ struct KnownPlace {
 /// Moves the poses of a drive into the map's frame: first as a whole, then each to where the
 /// constraints between them and the known places are fulfilled best. Where no place is known,
 /// constraints alone carry the drive on.
-void solve_with_known_places(std::vector<Pose2>& poses, std::span<const PoseConstraint> constraints,
-                             std::span<const KnownPlace> known, const KnownPlacesOptions& options,
-                             int max_iterations);
+GraphSummary solve_with_known_places(std::vector<Pose2>& poses,
+                                     std::span<const PoseConstraint> constraints,
+                                     std::span<const KnownPlace> known,
+                                     const KnownPlacesOptions& options, int max_iterations);
 
 /// The rigid motion that brings poses nearest to where they are known to be, in the mean of the
 /// nearer half: map_from_drive.

@@ -146,14 +146,15 @@ class StationSurvey {
   }
 
   void make_walls() {
-    std::vector<PosedScan> posed;
+    std::vector<PosedScan>& posed = survey_.levelled;
+    posed.clear();
+    survey_.visits.clear();
     std::vector<std::size_t> order(given_.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     // A station is one visit, whatever the order in which its scans come.
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
       return survey_.scans[a].station < survey_.scans[b].station;
     });
-    std::vector<int> visits;
     for (const std::size_t i : order) {
       const auto station = static_cast<std::size_t>(survey_.scans[i].station);
       if (!survey_.stations[station].placed) continue;
@@ -161,9 +162,9 @@ class StationSurvey {
       const double sigma = std::min(survey_.stations[station].heading.sigma_rad, radians(1.0));
       p.covariance(2, 2) = sigma * sigma;
       posed.push_back(std::move(p));
-      visits.push_back(survey_.scans[i].station);
+      survey_.visits.push_back(survey_.scans[i].station);
     }
-    survey_.walls = survey_walls(posed, scanner_, walls_, visits);
+    survey_.walls = survey_walls(posed, scanner_, walls_, survey_.visits);
   }
 
   /// Turns each scan onto the walls of all, then takes out its tilt.

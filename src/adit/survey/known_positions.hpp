@@ -90,6 +90,8 @@ struct KnownPositionsSurvey {
   std::vector<SurveyedStation> stations;
   std::vector<SurveyedScan> scans;  ///< in the order given
   WallMap walls;
+  std::vector<PosedScan> levelled;  ///< what the walls are made of: scans of placed stations
+  std::vector<int> visits;          ///< of these, ascending: their stations
 };
 
 /// Scans from known positions to walls: headings within each station, then of the stations, then

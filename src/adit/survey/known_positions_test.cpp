@@ -120,6 +120,10 @@ TEST(SurveyKnownPositions, LeavesOutAStationThatNoOtherAgreesWith) {
   ASSERT_TRUE(survey.has_value());
   EXPECT_FALSE(survey->stations.back().placed);
   EXPECT_TRUE(survey->stations.front().placed);
+  EXPECT_EQ(survey->levelled.size(), 14U);  // what a plan is compared with has none of it either
+  EXPECT_EQ(survey->visits.size(), 14U);
+  EXPECT_TRUE(std::is_sorted(survey->visits.begin(), survey->visits.end()));
+  for (const PosedScan& scan : survey->levelled) EXPECT_LT(scan.map_from_vehicle.y, 250.0);
   EXPECT_GT(length_near_truth(stations, survey->walls, 0.15), 40.0);
 }
 

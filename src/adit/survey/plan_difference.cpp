@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "adit/map/line_map.hpp"
+#include "adit/survey/looked_at.hpp"
 #include "adit/survey/wall_evidence.hpp"
 
 namespace adit {
@@ -112,15 +113,21 @@ class Comparison {
  public:
   Comparison(std::span<const Segment> plan, const WallMap& walls, std::span<const PosedScan> scans,
              const ScannerModel& scanner, const PlanDifferenceOptions& options,
-             const WallOptions& wall_options)
+             const WallOptions& wall_options, std::span<const int> visits)
       : plan_(plan),
+        looked_at_(box_of_beams(scans, scanner).padded(options.moved_m)),
         walls_(walls),
         surveyed_(walls.segments()),
         options_(options),
         near_surveyed_(surveyed_, options.parallel_rad),
         near_plan_(plan, options.parallel_rad),
         evidence_(scanner, wall_options) {
-    look(scans, wall_options);
+    std::vector<int> by_way;
+    if (visits.size() != scans.size()) {
+      by_way = visits_by_way(scans, wall_options.visit_m);
+      visits = by_way;
+    }
+    look(scans, visits);
     const std::size_t step = scans.size() / kMostObservers + 1;
     for (std::size_t i = 0; i < scans.size(); i += step) {
       observers_.push_back(scans[i].map_from_vehicle.translation());
@@ -136,18 +143,18 @@ class Comparison {
 
  private:
   /// Asks all beams about the places of the plan, as if these were surfaces that had been hit.
-  void look(std::span<const PosedScan> scans, const WallOptions& wall_options) {
+  void look(std::span<const PosedScan> scans, std::span<const int> visits) {
     std::vector<WallHit> hits;
     for (const Segment& s : plan_) {
       const Vector2d normal = perpendicular(s.b - s.a).normalized();
-      if (s.length() <= 0.0) continue;
-      for (const Vector2d& p : places_along(s, options_.step_m)) {
+      const auto stretch = stretch_within(s, looked_at_);
+      if (!stretch) continue;
+      for (const Vector2d& p : places_along(piece_of(s, *stretch), options_.step_m)) {
         hits.push_back({p, normal, 1.0, 0.0});
       }
     }
     evidence_.add(hits, 0);
     evidence_.finish_adding();
-    const std::vector<int> visits = visits_by_way(scans, wall_options.visit_m);
     for (std::size_t i = 0; i < scans.size(); ++i) evidence_.look_through(scans[i], visits[i]);
     evidence_.finish_looking();
   }
@@ -200,18 +207,22 @@ class Comparison {
     const Segment& s = plan_[index];
     const double length = s.length();
     if (length <= 0.0) return;
+    const auto stretch = stretch_within(s, looked_at_);
+    difference_.unseen_m += stretch ? length - stretch->length_m() : length;
+    if (!stretch) return;
     const Vector2d direction = (s.b - s.a) / length;
     std::vector<PlanPlace> places;
-    for (const Vector2d& p : places_along(s, options_.step_m)) {
+    for (const Vector2d& p : places_along(piece_of(s, *stretch), options_.step_m)) {
       places.push_back(judge(p, direction));
     }
     settle_doubts(places);
-    const double step = length / static_cast<double>(places.size());
+    const double step = stretch->length_m() / static_cast<double>(places.size());
     for (std::size_t begin = 0; begin < places.size();) {
       std::size_t end = begin + 1;
       while (end < places.size() && places[end].state == places[begin].state) ++end;
       const std::span<const PlanPlace> run(places.data() + begin, end - begin);
-      record(index, run, static_cast<double>(begin) * step, static_cast<double>(end) * step);
+      record(index, run, stretch->from_m + static_cast<double>(begin) * step,
+             stretch->from_m + static_cast<double>(end) * step);
       begin = end;
     }
   }
@@ -312,6 +323,7 @@ class Comparison {
   }
 
   std::span<const Segment> plan_;
+  Box looked_at_;
   const WallMap& walls_;
   std::vector<Segment> surveyed_;
   const PlanDifferenceOptions& options_;
@@ -342,8 +354,8 @@ const char* to_string(PlanChange change) {
 PlanDifference compare_with_plan(std::span<const Segment> plan, const WallMap& walls,
                                  std::span<const PosedScan> scans, const ScannerModel& scanner,
                                  const PlanDifferenceOptions& options,
-                                 const WallOptions& wall_options) {
-  return Comparison(plan, walls, scans, scanner, options, wall_options).run();
+                                 const WallOptions& wall_options, std::span<const int> visits) {
+  return Comparison(plan, walls, scans, scanner, options, wall_options, visits).run();
 }
 
 std::vector<Segment> apply_changes(std::span<const Segment> plan,

@@ -66,11 +66,12 @@ struct PlanDifference {
 };
 
 /// Compares a plan with the walls surveyed in its frame; `scans` are those of the survey, and tell
-/// what of the plan was seen through and what was not seen at all.
+/// what of the plan was seen through and what was not seen at all. `visits` as of survey_walls().
 PlanDifference compare_with_plan(std::span<const Segment> plan, const WallMap& walls,
                                  std::span<const PosedScan> scans, const ScannerModel& scanner,
                                  const PlanDifferenceOptions& options = {},
-                                 const WallOptions& wall_options = {});
+                                 const WallOptions& wall_options = {},
+                                 std::span<const int> visits = {});
 
 /// The plan with these changes made; all others stay proposals.
 std::vector<Segment> apply_changes(std::span<const Segment> plan,

@@ -123,6 +123,30 @@ TEST(CompareWithPlan, FindsAWallThatMoved) {
   EXPECT_NEAR(moved->added.front().a.y(), 4.0, 0.05);
 }
 
+TEST(CompareWithPlan, LeavesWallsThatRunToTheHorizonUnseen) {
+  constexpr double kFar = 1e8;  // m
+  auto plan = corridor(false);
+  const auto near = difference(plan, corridor(true));
+  plan.push_back({{0.0, kFar}, {kFar, kFar}});
+  plan.push_back({{-kFar, 30.0}, {kFar, 30.0}});
+  const auto d = difference(plan, corridor(true));
+  EXPECT_EQ(d.items.size(), near.items.size());
+  EXPECT_NEAR(d.confirmed_m, near.confirmed_m, 0.5);
+  EXPECT_NEAR(d.unseen_m - near.unseen_m, 3.0 * kFar, 0.5);
+}
+
+TEST(CompareWithPlan, FindsChangesOnTheSeenPartOfALongWall) {
+  auto plan = corridor(false);
+  plan.push_back({{-1e8, 2.9}, {1e8, 2.9}});  // through the corridor
+  const auto d = difference(plan, corridor(false));
+  ASSERT_EQ(d.items.size(), 1U);
+  EXPECT_EQ(d.items.front().change, PlanChange::gone);
+  EXPECT_GT(d.items.front().length_m, 15.0);
+  EXPECT_LT(d.items.front().length_m, 21.0);
+  const auto made = apply_changes(plan, d.items);
+  EXPECT_EQ(made.size(), plan.size() + 1);  // what was not seen stays on either side
+}
+
 TEST(ApplyChanges, ChangesWhatIsAcceptedAndNothingElse) {
   const auto plan = corridor(false);
   EXPECT_EQ(apply_changes(plan, {}).size(), plan.size());

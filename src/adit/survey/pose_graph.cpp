@@ -63,7 +63,7 @@ double squared_error(const PoseConstraint& constraint, const Pose2& from, const 
 
 GraphSummary solve_pose_graph(std::vector<Pose2>& poses,
                               std::span<const PoseConstraint> constraints, int max_iterations) {
-  if (poses.size() < 2 || constraints.empty()) return {true, 0, 0.0};
+  if (poses.size() < 2 || constraints.empty()) return {true, true, 0, 0.0};
   std::vector<std::array<double, 3>> values;
   values.reserve(poses.size());
   for (const Pose2& pose : poses) values.push_back({pose.x, pose.y, pose.theta});
@@ -91,7 +91,7 @@ GraphSummary solve_pose_graph(std::vector<Pose2>& poses,
       poses[i] = Pose2::from_vector({values[i][0], values[i][1], values[i][2]});
     }
   }
-  return {summary.termination_type == ceres::CONVERGENCE,
+  return {summary.IsSolutionUsable(), summary.termination_type == ceres::CONVERGENCE,
           static_cast<int>(summary.iterations.size()), summary.final_cost};
 }
 

@@ -19,6 +19,7 @@ struct PoseConstraint {
 
 /// What a solution came to.
 struct GraphSummary {
+  bool usable = false;  ///< else the poses stay as they were
   bool converged = false;
   int iterations = 0;
   double cost = 0.0;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "adit/map/spatial_index.hpp"
+#include "adit/survey/wall_polyline.hpp"
 
 namespace adit {
 namespace {
@@ -91,12 +92,16 @@ void join_ends(std::vector<SurveyedWallLine>& lines, BeamEvidence& evidence,
     const Segment begin = line.pieces.front().segment;
     const Segment end = line.pieces.back().segment;
     if (!line.closed) {
+      bool moved = false;
       if (const auto p = joiner.better_end({begin.b, begin.a, first, std::min(first + 1, last)})) {
         line.pieces.front().segment.a = line.vertices.front() = *p;
+        moved = true;
       }
       if (const auto p = joiner.better_end({end.a, end.b, last, std::max(last - 1, first)})) {
         line.pieces.back().segment.b = line.vertices.back() = *p;
+        moved = true;
       }
+      if (moved) set_vertex_covariances(line);
     }
     first = last + 1;
   }

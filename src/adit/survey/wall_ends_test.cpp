@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "adit/survey/wall_polyline.hpp"
+
 namespace adit {
 namespace {
 
@@ -11,6 +13,7 @@ SurveyedWallLine line_of(const std::vector<Vector2d>& vertices) {
   for (std::size_t i = 1; i < vertices.size(); ++i) {
     SurveyedWall piece;
     piece.segment = {vertices[i - 1], vertices[i]};
+    piece.covariance = Vector2d(1e-4, 1e-5).asDiagonal();
     line.pieces.push_back(piece);
   }
   return line;
@@ -36,6 +39,17 @@ double end_after_joining(double height) {
 TEST(JoinEnds, StopsAnEndThatRunsPastAWall) { EXPECT_NEAR(end_after_joining(-0.2), 0.0, 1e-9); }
 
 TEST(JoinEnds, BringsAnEndToTheWallBefore) { EXPECT_NEAR(end_after_joining(0.2), 0.0, 1e-9); }
+
+TEST(JoinEnds, TellsAnewHowWellAMovedEndIsKnown) {
+  auto lines = tee(0.2);
+  for (SurveyedWallLine& line : lines) set_vertex_covariances(line);
+  const Matrix2d before = lines[1].covariances.back();
+  const WallOptions options;
+  BeamEvidence evidence(ScannerModel{}, options);
+  join_ends(lines, evidence, options);
+  ASSERT_EQ(lines[1].covariances.size(), 2U);
+  EXPECT_GT(lines[1].covariances.back()(0, 0), before(0, 0));  // farther from the middle
+}
 
 TEST(JoinEnds, LeavesEndsThatAreFarFromWalls) {
   EXPECT_EQ(end_after_joining(0.5), 0.5);

@@ -82,20 +82,6 @@ Matrix2d information_of(const SurveyedWall& piece, const Vector2d& vertex) {
   return normal * normal.transpose() / variance;
 }
 
-void add_vertex_covariances(SurveyedWallLine& line) {
-  const std::size_t pieces = line.pieces.size();
-  for (std::size_t v = 0; v < line.vertices.size(); ++v) {
-    Matrix2d information = Matrix2d::Identity() / (kLooseEnd * kLooseEnd);
-    if (v > 0 || line.closed) {
-      information += information_of(line.pieces[(v + pieces - 1) % pieces], line.vertices[v]);
-    }
-    if (v < pieces || line.closed) {
-      information += information_of(line.pieces[v % pieces], line.vertices[v]);
-    }
-    line.covariances.push_back(information.inverse());
-  }
-}
-
 /// Drops what a chain took along at the ends of an open line: short strays, and what may be roof
 /// or floor. The last piece of all stays where it is none.
 void trim_ends(SurveyedWallLine& line, double shortest) {
@@ -135,6 +121,21 @@ bool is_supported(const SurveyedWallLine& line, const WallOptions& options) {
 
 }  // namespace
 
+void set_vertex_covariances(SurveyedWallLine& line) {
+  const std::size_t pieces = line.pieces.size();
+  line.covariances.clear();
+  for (std::size_t v = 0; v < line.vertices.size(); ++v) {
+    Matrix2d information = Matrix2d::Identity() / (kLooseEnd * kLooseEnd);
+    if (v > 0 || line.closed) {
+      information += information_of(line.pieces[(v + pieces - 1) % pieces], line.vertices[v]);
+    }
+    if (v < pieces || line.closed) {
+      information += information_of(line.pieces[v % pieces], line.vertices[v]);
+    }
+    line.covariances.push_back(information.inverse());
+  }
+}
+
 double SurveyedWallLine::length() const {
   double sum = 0.0;
   for (std::size_t i = 1; i < vertices.size(); ++i) sum += (vertices[i] - vertices[i - 1]).norm();
@@ -161,7 +162,7 @@ std::optional<SurveyedWallLine> make_wall_line(std::span<const WallNode> nodes,
   }
   trim_ends(line, kStrayOfTolerance * options.tolerance_m);
   if (line.pieces.empty() || !is_supported(line, options)) return std::nullopt;
-  add_vertex_covariances(line);
+  set_vertex_covariances(line);
   return line;
 }
 

@@ -24,6 +24,9 @@ std::vector<Vector2d> fit_vertices(std::span<const Vector2d> points,
                                    std::span<const std::size_t> begins, bool closed,
                                    double corner_reach_m);
 
+/// Makes the covariances of a line's vertices from those of its pieces, anew.
+void set_vertex_covariances(SurveyedWallLine& line);
+
 /// The chain as a line of walls; nothing where too little speaks for it.
 std::optional<SurveyedWallLine> make_wall_line(std::span<const WallNode> nodes,
                                                const WallChain& chain, const WallOptions& options);

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "adit/map/box.hpp"
+#include "adit/scan/scanner_model.hpp"
+#include "adit/survey/posed_scan.hpp"
+
+namespace adit {
+
+/// A part of a segment, along it from its beginning.
+struct Stretch {
+  double from_m = 0.0;
+  double to_m = 0.0;
+
+  double length_m() const { return to_m - from_m; }
+};
+
+/// The box around all beams that met something; empty without any.
+Box box_of_beams(std::span<const PosedScan> scans, const ScannerModel& scanner);
+
+/// The part of a segment that lies in a box (Liang and Barsky 1984); nothing where none does.
+std::optional<Stretch> stretch_within(const Segment& s, const Box& box);
+
+/// That part as a segment of its own.
+Segment piece_of(const Segment& s, const Stretch& stretch);
+
+}  // namespace adit
