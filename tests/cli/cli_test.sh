@@ -715,7 +715,7 @@ ring_drive() {
   printf '%s\n' '0 1.5 1.5 0 0 0 0 1' '1 18.5 1.5 0 0 0 0 1' "2 18.5 1.5 0 0 0 $quarter" "3 18.5 12.5 0 0 0 $quarter" \
     '4 18.5 12.5 0 0 0 1 0' '5 1.5 12.5 0 0 0 1 0' "6 1.5 12.5 0 0 0 -$quarter" "7 1.5 1.5 0 0 0 -$quarter" \
     '8 1.5 1.5 0 0 0 0 1' '9 10 1.5 0 0 0 0 1' >path.tum
-  expect 0 simulate ring.csv --path path.tum --scanner sick --speed 2 --odometry 0.04,2,0.04 --seed 3 -o "$1"
+  expect 0 simulate ring.csv --path path.tum --scanner sick --speed 3 --odometry 0.04,2,0.04 --seed 3 -o "$1"
 }
 
 # A drive from dead reckoning and scans alone: its poses, its walls, and the same from run to run.
