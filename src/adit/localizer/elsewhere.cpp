@@ -33,7 +33,8 @@ void Localizer::weigh_hypotheses(const LaserScan& scan) {
   if (hypotheses_.empty()) return;
   const Stopwatch watch(timings_.search);
   const RefinementInput input{map_, scan, scanner_, map_error_.error(), motion_};
-  const ScanFit but_a_wall = refiner_.without_worst_wall(settings_.refinement);
+  const ScanFit but_a_wall =
+      hypotheses_.has_own() ? refiner_.without_worst_wall(settings_.refinement) : scan_fit_;
   hypotheses_.weigh({input, way_m_, settings_.refinement, settings_.tracking, settings_.status,
                      tracker_, scan_fit_, but_a_wall},
                     settings_.hypotheses);

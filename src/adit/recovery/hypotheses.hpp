@@ -65,7 +65,8 @@ struct HypothesesTurn {
   /// The pose by dead reckoning as it was before the scan, and the scan's fit there.
   const PoseTracker& own;
   const ScanFit& own_fit;
-  /// The same fit if the wall that gainsays it most is not where the plan has it.
+  /// The same fit if the wall that gainsays it most is not where the plan has it; of use while
+  /// `has_own`.
   const ScanFit& own_but_a_wall;
 };
 
@@ -96,6 +97,8 @@ class Hypotheses {
     return all_.size() == 1 && all_.front().is_own && all_.front().contradicted > 0;
   }
   std::size_t size() const { return all_.size(); }
+  /// Whether the pose that dead reckoning has kept is among them.
+  bool has_own() const { return own() != nullptr; }
 
   /// The pose that dead reckoning has kept. It stays until another is believed: a plan that is
   /// wrong at one place explains scans better elsewhere, but not for long.

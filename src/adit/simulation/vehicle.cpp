@@ -89,16 +89,16 @@ std::vector<double> scan_stamps(const TimedPath& path, const ScannerSpec& spec, 
   }
 }
 
-/// Dead reckoning along a path. The error of a move from knot to knot is drawn once and spread over
-/// it, so that the declared noise, which is linear in the move, holds however often the wheels are
-/// read.
+/// Dead reckoning along a path, from its first knot. The error of a move from knot to knot is drawn
+/// once and spread over it, so that the declared noise, which is linear in the move, holds however
+/// often the wheels are read.
 class Wheels {
  public:
-  Wheels(const TimedPath& felt, std::span<const double> knots, const Pose2& start,
-         const DriveOptions& options, std::uint64_t seed)
+  Wheels(const TimedPath& felt, std::span<const double> knots, const DriveOptions& options,
+         std::uint64_t seed)
       : felt_(felt), slip_ratio_(options.slip_ratio) {
     Random random(seed, kWheels);
-    moves_.push_back({knots.front(), knots.front(), start, Vector3d::Zero()});
+    moves_.push_back({knots.front(), knots.front(), Pose2{}, Vector3d::Zero()});
     for (std::size_t i = 1; i < knots.size(); ++i) {
       const Pose2 move = inverse(felt.at(knots[i - 1])) * felt.at(knots[i]);
       const Vector3d error = draw_move_error(move, options.odometry, random);
@@ -144,8 +144,7 @@ std::vector<double> error_knots(const Recording& recording, const DriveOptions& 
 /// Dead reckoning at the scans, and between them at the odometry's own rate.
 void add_odometry(const TimedPath& felt, const DriveOptions& options, std::uint64_t seed,
                   Recording& recording) {
-  const Wheels wheels(felt, error_knots(recording, options), recording.first_guess.pose, options,
-                      seed);
+  const Wheels wheels(felt, error_knots(recording, options), options, seed);
   // Dead reckoning begins at the first guess.
   const Pose2 onto_guess =
       recording.first_guess.pose * inverse(wheels.read(recording.truth.front().stamp));
