@@ -69,8 +69,8 @@ std::size_t know_places(const Replay& found, DriveSurvey& survey) {
   return count;
 }
 
-DriveResult drive_of(const Log& log, const SurveyArguments& arguments, const SurveyCall& call,
-                     StageBars& bars, Surveyed& out) {
+Result<DriveResult> drive_of(const Log& log, const SurveyArguments& arguments,
+                             const SurveyCall& call, StageBars& bars, Surveyed& out) {
   const Configuration& values = out.settings.configuration;
   DriveSurvey survey(values.localizer.odometry, values.drive);
   for (std::size_t i = 0; i < log.scans.size(); ++i) {
@@ -93,15 +93,13 @@ Result<void> survey_drive(Log& log, const SurveyArguments& arguments, const Surv
     return fail("its odometry reports no move: a survey of a drive needs it; without, --poses",
                 arguments.log);
   }
-  const DriveResult drive = drive_of(log, arguments, call, bars, out);
+  const Result<DriveResult> surveyed = drive_of(log, arguments, call, bars, out);
   if (!out.plan.empty() && out.places_in_plan == 0) {
     return fail("no scan was found in the plan; --start says where the drive began",
                 arguments.update);
   }
-  if (!drive.solved) {
-    return fail("the poses of the drive cannot be solved for: its scans or odometry contradict",
-                arguments.log);
-  }
+  if (!surveyed) return fail(surveyed.error().message, arguments.log);
+  const DriveResult& drive = *surveyed;
   for (std::size_t i = 0; i < log.scans.size(); ++i) {
     const SurveyedPose& at = drive.poses[i];
     LaserScan& scan = log.scans[i].scan;

@@ -155,6 +155,18 @@ double nearest(std::span<const Segment> segments, const Vector2d& p) {
   return least;
 }
 
+/// Where true walls were in sight and none was surveyed, as short segments.
+std::vector<Segment> missing_walls(const Trial& trial, std::span<const Segment> walls) {
+  std::vector<Segment> missing;
+  const Vector2d half(0.4 * kSample, 0.0);
+  for (std::size_t i = 0; i < trial.samples.size(); ++i) {
+    const Vector2d& p = trial.samples[i];
+    if (trial.ends[i] < kEndsInSight || nearest(walls, p) < kFoundWithin) continue;
+    missing.push_back({p - half, p + half});
+  }
+  return missing;
+}
+
 void report(const Trial& trial, const KnownPositionsSurvey& survey, double seconds,
             std::uint64_t seed) {
   const std::vector<Segment> walls = survey.walls.segments();
@@ -206,6 +218,7 @@ int run(const ScannerSpec& spec, double spacing, bool by_station, std::uint64_t 
   if (const char* folder = std::getenv("ADIT_TRIALS_OUT"); folder != nullptr) {
     const std::string stem = fmt::format("{}/known_positions_{}", folder, seed);
     if (!write_plan(survey->walls.segments(), stem + "_walls.csv") ||
+        !write_plan(missing_walls(trial, survey->walls.segments()), stem + "_missing.csv") ||
         !write_plan(trial.world.walls, stem + "_truth.csv")) {
       return 1;
     }

@@ -71,11 +71,13 @@ Result<void> run(int argc, char** argv) {
   }
   fmt::print("tracked {:.1f} s\n", seconds() - start);
   std::string last;
-  const DriveResult result = survey.finish(threads, [&](const char* stage, double) {
+  const auto finished = survey.finish(threads, [&](const char* stage, double) {
     if (last == stage) return;
     last = stage;
     fmt::print(stderr, "{:6.1f} s  {}\n", seconds() - start, stage);
   });
+  if (!finished) return tl::unexpected(finished.error());
+  const DriveResult& result = *finished;
   fmt::print("closures {}  pairs {}\n", result.closures.size(), result.pairs);
   fmt::print("scans {}  keyframes {}  {:.1f} s  cpu {:.1f} s  peak {:.0f} MB\n", log->scans.size(),
              result.keyframes.size(), seconds() - start, cpu_seconds() - cpu_start,

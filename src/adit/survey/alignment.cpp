@@ -25,7 +25,9 @@ Linearization linearize(std::span<const SurfacePoint> source, const SurfaceMap& 
     const Vector2d normal = (wall->normal.cast<double>() + facing).normalized();
     const double r = normal.dot(point - wall->point.cast<double>());
     const double u = r / scale_m;
-    const double w = 1.0 / ((1.0 + u * u) * (1.0 + u * u));
+    const double near = 1.0 / (1.0 + u * u);  // one less the loss of Geman and McClure
+    const double w = near * near;
+    out.closeness += near;
     const Vector3d jacobian(normal.x(), normal.y(), cross(arm, normal));
     out.information += w * jacobian * jacobian.transpose();
     out.gradient += w * r * jacobian;

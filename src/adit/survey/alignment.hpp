@@ -34,6 +34,7 @@ struct Linearization {
   Vector3d gradient = Vector3d::Zero();
   int matched = 0;
   int tried = 0;
+  double closeness = 0.0;  ///< sum over the points: 1 on its wall, 0.5 at the scale, 0 without one
 };
 /// Takes out what walls seem to say of a direction in which they do not hold the pose (after Zhang,
 /// Kaess and Singh 2016).

@@ -72,55 +72,70 @@ Agreement compare(const LoopScene& scene, const ChainDrift& chain, const Closure
   return out;
 }
 
+/// Who supports and who contradicts each closure, by row.
+struct Relations {
+  std::vector<std::vector<std::size_t>> supporters;
+  std::vector<std::vector<std::size_t>> opponents;
+};
+
+/// `rows` is in order of the queries; from `candidates` on closures have been accepted before and
+/// are not held against each other.
+Relations relate(const LoopScene& scene, const ChainDrift& chain, std::span<const Closure> closures,
+                 std::size_t candidates, std::span<const std::size_t> rows,
+                 const LoopOptions& options) {
+  // Two whose queries drifted apart by more than this say nothing of each other.
+  const double far = 4.0 * options.support_m;
+  Relations out{std::vector<std::vector<std::size_t>>(closures.size()),
+                std::vector<std::vector<std::size_t>>(closures.size())};
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    const Closure& a = closures[rows[k]];
+    for (std::size_t l = k + 1; l < rows.size(); ++l) {
+      const Closure& b = closures[rows[l]];
+      if (chain.between(a.to, b.to, 0.0).metres >= far) break;
+      if (rows[k] >= candidates && rows[l] >= candidates) continue;
+      const Agreement agreement = compare(scene, chain, a, b, options);
+      if (agreement.consistent && !agreement.supports) continue;
+      auto& list = agreement.supports ? out.supporters : out.opponents;
+      list[rows[k]].push_back(rows[l]);
+      list[rows[l]].push_back(rows[k]);
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::vector<Closure> consistent_set(const LoopScene& scene, std::span<const Closure> candidates,
                                     std::span<const Closure> known, const LoopOptions& options) {
   const ChainDrift chain = chain_of(scene);
-  std::vector<Closure> sorted(candidates.begin(), candidates.end());
-  std::stable_sort(sorted.begin(), sorted.end(),
-                   [](const Closure& a, const Closure& b) { return a.to < b.to; });
-  const std::size_t n = sorted.size();
-  // Two whose queries drifted apart by more than this say nothing of each other.
-  const double far = 4.0 * options.support_m;
-  const auto end_of = [&](std::size_t i) {
-    std::size_t j = i + 1;
-    while (j < n && chain.between(sorted[i].to, sorted[j].to, 0.0).metres < far) ++j;
-    return j;
-  };
-  std::vector<std::vector<std::size_t>> supporters(n);
-  std::vector<std::vector<std::size_t>> opponents(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i + 1, end = end_of(i); j < end; ++j) {
-      const Agreement agreement = compare(scene, chain, sorted[i], sorted[j], options);
-      if (agreement.supports) {
-        supporters[i].push_back(j);
-        supporters[j].push_back(i);
-      } else if (!agreement.consistent) {
-        opponents[i].push_back(j);
-        opponents[j].push_back(i);
-      }
+  std::vector<Closure> closures(candidates.begin(), candidates.end());
+  closures.insert(closures.end(), known.begin(), known.end());
+  std::vector<std::size_t> rows(closures.size());  // in order of their queries
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](std::size_t a, std::size_t b) { return closures[a].to < closures[b].to; });
+  const auto is_candidate = [&](std::size_t row) { return row < candidates.size(); };
+  const Relations relations = relate(scene, chain, closures, candidates.size(), rows, options);
+  std::vector<char> joined(closures.size(), 0);
+  const auto has_joined = [&](std::size_t row) { return joined[row] != 0; };
+  for (const std::size_t row : rows) joined[row] = is_candidate(row) ? 0 : 1;
+  // Those with most support first; each joins unless it contradicts one that has.
+  std::vector<std::size_t> order = rows;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return relations.supporters[a].size() > relations.supporters[b].size();
+  });
+  for (const std::size_t row : order) {
+    const auto& opponents = relations.opponents[row];
+    if (is_candidate(row)) {
+      joined[row] = std::none_of(opponents.begin(), opponents.end(), has_joined);
     }
   }
-  // Those with most support first; each joins unless it contradicts one that has.
-  std::vector<std::size_t> order(n);
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return supporters[a].size() > supporters[b].size();
-  });
-  std::vector<char> joined(n, 0);
-  const auto has_joined = [&](std::size_t j) { return joined[j] != 0; };
-  for (const std::size_t i : order) {
-    joined[i] = std::none_of(opponents[i].begin(), opponents[i].end(), has_joined);
-  }
   std::vector<Closure> accepted;
-  for (std::size_t i = 0; i < n; ++i) {
-    if (joined[i] == 0) continue;
-    auto support = std::count_if(supporters[i].begin(), supporters[i].end(), has_joined);
-    support += std::count_if(known.begin(), known.end(), [&](const Closure& k) {
-      return compare(scene, chain, sorted[i], k, options).supports;
-    });
-    if (support >= options.least_support) accepted.push_back(sorted[i]);
+  for (const std::size_t row : rows) {
+    if (!is_candidate(row) || joined[row] == 0) continue;
+    const auto& supporters = relations.supporters[row];
+    const auto support = std::count_if(supporters.begin(), supporters.end(), has_joined);
+    if (support >= options.least_support) accepted.push_back(closures[row]);
   }
   return accepted;
 }

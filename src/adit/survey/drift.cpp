@@ -3,9 +3,6 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <functional>
-#include <limits>
-#include <queue>
-#include <utility>
 
 namespace adit {
 namespace {
@@ -27,50 +24,75 @@ double size_of(const Matrix3d& covariance) {
 
 DriftBound::DriftBound(std::size_t nodes, std::span<const PoseConstraint> constraints,
                        double open_m)
-    : edges_(nodes) {
+    : begins_(nodes + 1, 0), edges_(2 * constraints.size()) {
+  for (const PoseConstraint& c : constraints) {
+    ++begins_[c.from + 1];
+    ++begins_[c.to + 1];
+  }
+  for (std::size_t i = 0; i < nodes; ++i) begins_[i + 1] += begins_[i];
+  std::vector<std::size_t> next(begins_.begin(), begins_.end() - 1);
   const double open = 1.0 / (open_m * open_m);
   for (const PoseConstraint& c : constraints) {
     const Matrix3d covariance =
         (c.information + Vector3d(open, open, 1.0).asDiagonal().toDenseMatrix()).inverse();
-    edges_[c.from].push_back({c.to, true, covariance});
-    edges_[c.to].push_back({c.from, false, covariance});
+    edges_[next[c.from]++] = {c.to, true, covariance};
+    edges_[next[c.to]++] = {c.from, false, covariance};
   }
 }
 
 std::vector<RelativeSigma> DriftBound::from(std::size_t source, std::span<const Pose2> poses,
                                             double limit_m) const {
-  // Covariances of positions in the common frame, of headings, and between them.
-  std::vector<Matrix3d> covariances(edges_.size(), Matrix3d::Zero());
-  std::vector<double> sizes(edges_.size(), std::numeric_limits<double>::infinity());
-  std::vector<RelativeSigma> out(edges_.size());
-  using Entry = std::pair<double, std::size_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  sizes[source] = 0.0;
-  queue.emplace(0.0, source);
-  while (!queue.empty()) {
-    const auto [size, node] = queue.top();
-    queue.pop();
-    if (size > sizes[node]) continue;
-    const Matrix3d& here = covariances[node];
-    const double metres = std::sqrt(here(0, 0) + here(1, 1));
-    if (metres > limit_m) continue;
-    out[node] = {true, metres, std::sqrt(here(2, 2))};
-    for (const Edge& edge : edges_[node]) {
-      const Vector2d arm = poses[edge.to].translation() - poses[node].translation();
-      Matrix3d carry_by = Matrix3d::Identity();
-      carry_by(0, 2) = -arm.y();
-      carry_by(1, 2) = arm.x();
-      const Matrix3d rotation = rotation_of(poses[edge.forward ? node : edge.to].theta);
-      const Matrix3d next = carry_by * here * carry_by.transpose() +
-                            rotation * edge.covariance * rotation.transpose();
-      const double next_size = size_of(next);
-      if (next_size >= sizes[edge.to]) continue;
-      sizes[edge.to] = next_size;
-      covariances[edge.to] = next;
-      queue.emplace(next_size, edge.to);
-    }
-  }
+  std::vector<RelativeSigma> out(begins_.size() - 1);
+  DriftSearch search(*this, poses);
+  search.begin(source);
+  while (const auto reached = search.next(limit_m)) out[reached->node] = reached->sigma;
   return out;
+}
+
+DriftSearch::DriftSearch(const DriftBound& bound, std::span<const Pose2> poses)
+    : bound_(bound), poses_(poses), labels_(bound.begins_.size() - 1) {}
+
+void DriftSearch::begin(std::size_t source) {
+  ++search_;
+  queue_ = {};
+  labels_[source] = {search_, false, 0.0, Matrix3d::Zero()};
+  queue_.emplace(0.0, source);
+}
+
+void DriftSearch::expand(std::size_t node) {
+  const Matrix3d& here = labels_[node].covariance;
+  for (const DriftBound::Edge& edge : bound_.edges_of(node)) {
+    Label& there = labels_[edge.to];
+    const bool is_new = there.search != search_;
+    if (!is_new && there.done) continue;
+    const Vector2d arm = poses_[edge.to].translation() - poses_[node].translation();
+    Matrix3d carry_by = Matrix3d::Identity();
+    carry_by(0, 2) = -arm.y();
+    carry_by(1, 2) = arm.x();
+    const Matrix3d rotation = rotation_of(poses_[edge.forward ? node : edge.to].theta);
+    const Matrix3d next =
+        carry_by * here * carry_by.transpose() + rotation * edge.covariance * rotation.transpose();
+    const double size = size_of(next);
+    if (!is_new && size >= there.size) continue;
+    there = {search_, false, size, next};
+    queue_.emplace(size, edge.to);
+  }
+}
+
+std::optional<DriftSearch::Reached> DriftSearch::next(double limit_m) {
+  while (!queue_.empty()) {
+    const std::size_t node = queue_.top().second;
+    queue_.pop();
+    Label& label = labels_[node];
+    if (label.done) continue;
+    label.done = true;
+    const double metres = std::sqrt(label.covariance(0, 0) + label.covariance(1, 1));
+    if (metres > limit_m) continue;
+    const RelativeSigma sigma{true, metres, std::sqrt(label.covariance(2, 2))};
+    expand(node);
+    return Reached{node, sigma};
+  }
+  return std::nullopt;
 }
 
 }  // namespace adit

@@ -83,6 +83,7 @@ struct TrackingStepOptions {
   double better_share = 0.15;
   double surprising_sigmas = 6.0;
   double surprising_share = 0.75;
+  int surprising_matched = 60;
   double least_share = 0.35;
   int least_matched = 15;
 
@@ -117,7 +118,10 @@ struct TrackingStepOptions {
     field("surprising_sigmas", self.surprising_sigmas,
           "where dead reckoning would be wrong by more than so many sigmas ...");
     field("surprising_share", self.surprising_share,
-          "... this share of the points must find walls");
+          "... this share of the points must find walls ...");
+    field("surprising_matched", self.surprising_matched,
+          "... and so many of them; and they must go worse with the walls, by the share above, "
+          "where dead reckoning is right");
     field("least_share", self.least_share,
           "a scan of whose points a smaller share finds walls is placed by dead reckoning");
     field("least_matched", self.least_matched, "and one of whose points fewer find walls");
@@ -215,6 +219,8 @@ struct JointOptions {
   int neighbours = 16;
   int in_time = 4;
   int most_pairs = 60000;
+  int most_looks = 400;
+  int most_reached = 4000;
   double sight_m = 8.0;
   double least_share = 0.4;
   double believed_sigma_m = 0.2;
@@ -231,7 +237,13 @@ struct JointOptions {
     field("neighbours", self.neighbours, "a scan is laid onto so many others, at most, ...");
     field("in_time", self.in_time, "... so many of them the ones before it, ...");
     field("most_pairs", self.most_pairs,
-          "of long drives each onto fewer, so that there are no more pairs than this in all");
+          "of long drives each onto fewer, so that there are no more pairs than this in all, but "
+          "two a scan at least");
+    field(
+        "most_looks", self.most_looks,
+        "where a place was passed very often, a scan is held against no more others than this ...");
+    field("most_reached", self.most_reached,
+          "... that are among so many whose drift against it is known best");
     field("sight_m", self.sight_m, "... taken no farther from it than this (m)");
     field("least_share", self.least_share, "that show at least this share of its points");
     field("believed_sigma_m", self.believed_sigma_m,

@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <exception>
+#include <string>
 
 #include "adit/motion/pose_history.hpp"
 
@@ -202,12 +204,10 @@ DriveResult DriveSurvey::result() const {
   for (const Keyframe& k : tracker_.keyframes()) out.keyframes.push_back(k.scan);
   out.closures = closures_;
   out.pairs = pairs_;
-  out.solved = solved_;
   return out;
 }
 
-DriveResult DriveSurvey::finish(int threads, const DriveProgress& given) {
-  const DriveProgress progress = given ? given : [](const char*, double) {};
+void DriveSurvey::solve_all(int threads, const DriveProgress& progress) {
   const LoopOptions& loops = options_.loops;
   solve(loops.last_limit_m, threads, progress);
   // Closures over less drift are surer: rather few that are true than many of which some are not.
@@ -223,7 +223,19 @@ DriveResult DriveSurvey::finish(int threads, const DriveProgress& given) {
   }
   if (last != best) solve(best, threads, progress);
   solve_in_map();
-  return result();
+}
+
+Result<DriveResult> DriveSurvey::finish(int threads, const DriveProgress& given) {
+  const DriveProgress progress = given ? given : [](const char*, double) {};
+  try {
+    solve_all(threads, progress);
+    if (!solved_) {
+      return fail("the poses of the drive cannot be solved for: its scans or odometry contradict");
+    }
+    return result();
+  } catch (const std::exception& error) {
+    return fail(std::string("the survey of the drive failed: ") + error.what());
+  }
 }
 
 }  // namespace adit

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "adit/geometry/result.hpp"
 #include "adit/survey/drive_options.hpp"
 #include "adit/survey/joint_registration.hpp"
 #include "adit/survey/known_places.hpp"
@@ -26,7 +27,6 @@ struct DriveResult {
   std::vector<std::size_t> keyframes;  ///< which of the scans were kept
   std::vector<Closure> closures;       ///< between keyframes, as they were accepted
   std::size_t pairs = 0;  ///< constraints from laying keyframes onto each other at the end
-  bool solved = true;     ///< false: a solution failed, and the poses are not to be believed
 };
 
 /// Says which part of a stage is done, 0 to 1; may be empty.
@@ -44,9 +44,11 @@ class DriveSurvey {
   /// Says where the vehicle was at a scan that has been added; the result is in that map's frame.
   /// Comes in the order of the scans; the first between a keyframe and the next counts.
   void know_place(std::size_t scan, const Pose2& map_from_vehicle, const Matrix3d& covariance);
-  DriveResult finish(int threads, const DriveProgress& progress = {});
+  /// An Error where the poses cannot be solved for, or where memory or threads run out.
+  Result<DriveResult> finish(int threads, const DriveProgress& progress = {});
 
  private:
+  void solve_all(int threads, const DriveProgress& progress);
   std::vector<PoseConstraint> chain() const;
   std::vector<PoseConstraint> dead_reckoning() const;
   void solve_for(std::span<const PoseConstraint> constraints);

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "adit/simulation/ray_caster.hpp"
 #include "adit/simulation/scanner.hpp"
@@ -89,7 +92,7 @@ DriveResult survey(const Drive& drive, const ScannerModel& scanner, int threads)
   for (std::size_t i = 0; i < drive.scans.size(); ++i) {
     survey.add(drive.scans[i], scanner, drive.odometry[i]);
   }
-  return survey.finish(threads, [](const char*, double) {});
+  return survey.finish(threads, [](const char*, double) {}).value();
 }
 
 double worst_error_m(const Drive& drive, const std::vector<Pose2>& poses) {
@@ -149,12 +152,41 @@ TEST(DriveSurvey, TakesPlacesOfScansThatAreNoKeyframes) {
     if (std::find(keyframes.begin(), keyframes.end(), i) != keyframes.end()) continue;
     survey.know_place(i, map_from_world * run.truth[i], 1e-4 * Matrix3d::Identity());
   }
-  const DriveResult result = survey.finish(1);
-  EXPECT_TRUE(result.solved);
+  const auto finished = survey.finish(1);
+  ASSERT_TRUE(finished.has_value());
+  const DriveResult& result = *finished;
   for (std::size_t i = 0; i < run.scans.size(); ++i) {
     const Pose2 expected = map_from_world * run.truth[i];
     EXPECT_LT(difference(expected, result.poses[i].map_from_vehicle).norm(), 0.1) << "scan " << i;
   }
+}
+
+/// A few metres of gallery.
+DriveSurvey begun() {
+  const ScannerSpec scanner = sick_lms();
+  const TimedPath path =
+      drive_along(std::vector<Pose2>{{-1.2, -1.2, 0.0}, {3.0, -1.2, 0.0}}, 0.4, 0.6);
+  const Drive run = drive(ring(), path, scanner);
+  DriveSurvey survey({}, {});
+  for (std::size_t i = 0; i < run.scans.size(); ++i) {
+    survey.add(run.scans[i], scanner.model, run.odometry[i]);
+  }
+  return survey;
+}
+
+TEST(DriveSurvey, WhatFailsInsideIsAnError) {
+  const auto full = [](const char*, double) { throw std::runtime_error("disk full"); };
+  const auto result = begun().finish(2, full);
+  ASSERT_FALSE(result.has_value());
+  EXPECT_NE(result.error().message.find("disk full"), std::string::npos);
+}
+
+TEST(DriveSurvey, ASolutionThatFailsIsAnError) {
+  DriveSurvey survey = begun();
+  survey.know_place(0, {std::nan(""), 0.0, 0.0}, 1e-4 * Matrix3d::Identity());
+  const auto result = survey.finish(1);
+  ASSERT_FALSE(result.has_value());
+  EXPECT_NE(result.error().message.find("cannot be solved"), std::string::npos);
 }
 
 }  // namespace

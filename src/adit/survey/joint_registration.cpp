@@ -75,16 +75,18 @@ class PairSearch {
         poses_(poses),
         maps_(maps),
         grid_(grid),
-        drift_(drift),
+        drift_(drift, poses),
         options_(options),
         alignment_(alignment) {
     alignment_.first_reach_m = options.reach_m;
+    // Of long drives fewer, but always one of another pass: else loops would open again.
     const int affordable =
         options.most_pairs / static_cast<int>(std::max<std::size_t>(1, keyframes.size()));
-    options_.neighbours = std::max(options.in_time, std::min(options.neighbours, affordable));
+    options_.in_time = std::clamp(affordable / 2, 1, std::max(1, options.in_time));
+    options_.neighbours = std::max(options_.in_time + 1, std::min(options.neighbours, affordable));
   }
 
-  std::vector<PoseConstraint> of(std::size_t i) const {
+  std::vector<PoseConstraint> of(std::size_t i) {
     std::vector<PoseConstraint> out;
     for (const std::size_t j : choose(i)) {
       add(j, i, out);
@@ -99,24 +101,79 @@ class PairSearch {
     double share;
   };
 
-  /// The best few of every pass, in turn.
-  std::vector<std::size_t> choose(std::size_t i) const {
-    const std::vector<RelativeSigma> sigma = drift_.from(i, poses_, options_.believed_sigma_m);
-    std::vector<std::size_t> chosen;
-    std::vector<std::vector<Offer>> passes;
+  using Pass = std::vector<std::size_t>;
+
+  /// Others near enough, one list for each pass; of very many passes some, evenly over all.
+  std::vector<Pass> passes_near(std::size_t i, std::vector<std::size_t>& in_time) const {
+    std::vector<Pass> passes;
     std::size_t last = 0;
+    std::size_t count = 0;
     for (const std::size_t j : grid_.before(i)) {
       if (i - j <= static_cast<std::size_t>(options_.in_time)) {
-        chosen.push_back(j);
+        in_time.push_back(j);
         continue;
       }
-      if (!sigma[j].known) continue;
-      const double share =
-          overlap(keyframes_[i], maps_[j], inverse(poses_[j]) * poses_[i], options_.reach_m);
-      if (share < options_.least_share) continue;
       if (passes.empty() || j - last > kPassGap) passes.emplace_back();
-      passes.back().push_back({j, share});
+      passes.back().push_back(j);
       last = j;
+      ++count;
+    }
+    const std::size_t most = static_cast<std::size_t>(std::max(1, options_.most_looks));
+    if (count <= most) return passes;
+    const std::size_t kept = std::max<std::size_t>(1, passes.size() * most / count);
+    std::vector<Pass> some;
+    for (std::size_t k = 0; k < kept; ++k) {
+      some.push_back(
+          thinned(passes[(i + k * passes.size() / kept) % passes.size()], most / kept + 1));
+    }
+    std::sort(some.begin(), some.end());
+    return some;
+  }
+
+  /// Evenly some of a pass, if it is longer than this.
+  static Pass thinned(const Pass& pass, std::size_t most) {
+    const std::size_t every = (pass.size() + most - 1) / most;
+    Pass out;
+    for (std::size_t k = 0; k < pass.size(); k += every) out.push_back(pass[k]);
+    return out;
+  }
+
+  /// Leaves of the passes those whose pose is known well enough against one.
+  void keep_believed(std::size_t i, std::vector<Pass>& passes) {
+    std::vector<std::size_t> open;
+    for (const Pass& pass : passes) open.insert(open.end(), pass.begin(), pass.end());
+    std::vector<char> believed(open.size(), 0);
+    const auto row_of = [&](std::size_t j) {
+      const auto at = std::lower_bound(open.begin(), open.end(), j);
+      return static_cast<std::size_t>(at - open.begin());
+    };
+    std::size_t wanted = open.size();
+    drift_.begin(i);
+    for (int looks = 0; wanted > 0 && looks < options_.most_reached; ++looks) {
+      const auto reached = drift_.next(options_.believed_sigma_m);
+      if (!reached) break;
+      const std::size_t row = row_of(reached->node);
+      if (row == open.size() || open[row] != reached->node) continue;
+      believed[row] = 1;
+      --wanted;
+    }
+    for (Pass& pass : passes) {
+      std::erase_if(pass, [&](std::size_t j) { return believed[row_of(j)] == 0; });
+    }
+  }
+
+  /// The best few of every pass, in turn.
+  std::vector<std::size_t> choose(std::size_t i) {
+    std::vector<std::size_t> chosen;
+    std::vector<Pass> near = passes_near(i, chosen);
+    keep_believed(i, near);
+    std::vector<std::vector<Offer>> passes(near.size());
+    for (std::size_t k = 0; k < near.size(); ++k) {
+      for (const std::size_t j : near[k]) {
+        const double share =
+            overlap(keyframes_[i], maps_[j], inverse(poses_[j]) * poses_[i], options_.reach_m);
+        if (share >= options_.least_share) passes[k].push_back({j, share});
+      }
     }
     for (auto& pass : passes) {
       std::stable_sort(pass.begin(), pass.end(),
@@ -159,7 +216,7 @@ class PairSearch {
   std::span<const Pose2> poses_;
   std::span<const SurfaceMap> maps_;
   const PlaceGrid& grid_;
-  const DriftBound& drift_;
+  DriftSearch drift_;
   JointOptions options_;
   AlignmentOptions alignment_;
 };
@@ -183,7 +240,7 @@ std::vector<PoseConstraint> register_pairs(std::span<const Keyframe> keyframes,
   std::vector<std::vector<PoseConstraint>> found(keyframes.size());
   share_out(keyframes.size(), threads, [&] {
     return [&, search = PairSearch(keyframes, poses, maps, grid, drift, options, alignment)](
-               std::size_t i) { found[i] = search.of(i); };
+               std::size_t i) mutable { found[i] = search.of(i); };
   });
   std::vector<PoseConstraint> all;
   for (const auto& some : found) all.insert(all.end(), some.begin(), some.end());

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "adit/simulation/random.hpp"
 
 namespace adit {
@@ -92,6 +94,33 @@ TEST(RegisterPairs, KeepsToTheNumberThatIsAffordable) {
   const auto pairs = register_pairs(walk.keyframes, walk.poses, walk.backbone, options, {}, 2);
   EXPECT_LE(pairs.size(), 2 * 200U);
   EXPECT_GT(pairs.size(), 100U);
+}
+
+std::size_t pairs_between_passes(const std::vector<PoseConstraint>& pairs) {
+  return static_cast<std::size_t>(
+      std::count_if(pairs.begin(), pairs.end(), [](const PoseConstraint& c) {
+        return std::max(c.from, c.to) - std::min(c.from, c.to) > 15;
+      }));
+}
+
+/// Else the last solution of a long drive would open its loops again.
+TEST(RegisterPairs, HoldsPassesTogetherHoweverFewPairsAreAffordable) {
+  const Walk walk;
+  JointOptions options;
+  options.most_pairs = 40;
+  const auto pairs = register_pairs(walk.keyframes, walk.poses, walk.backbone, options, {}, 1);
+  EXPECT_LE(pairs.size(), 4 * 40U);
+  EXPECT_GT(pairs_between_passes(pairs), 20U);
+}
+
+TEST(RegisterPairs, LooksAtNoMoreThanItIsAllowed) {
+  const Walk walk;
+  JointOptions options;
+  options.most_looks = 3;
+  const auto few = register_pairs(walk.keyframes, walk.poses, walk.backbone, options, {}, 1);
+  const auto all = register_pairs(walk.keyframes, walk.poses, walk.backbone, {}, {}, 1);
+  EXPECT_GT(pairs_between_passes(few), 20U);
+  EXPECT_LT(few.size(), all.size());
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ constexpr double kFineTurn = radians(0.1);
 constexpr double kFitReach = 0.5;   // m: hits farther from a wall are not fitted to it
 constexpr double kFitScale = 0.15;  // m: where a hit's pull is halved; the walls' own roughness
 constexpr int kFitSteps = 3;
+constexpr double kClearlyBetter = 0.02;  // of the beams: else a scan's heading stays
 constexpr double kSteep = radians(75.0);
 constexpr double kMostTilt = 3.0;  // sigmas
 constexpr double kLikeWall = 0.6;  // cosine between a hit's normal and its wall's
@@ -77,6 +78,11 @@ class StationSurvey {
       make_walls();
       report(0.7 + 0.3 * (round + 1) / options_.rounds);
     }
+    // Walls tell a heading better than the stations among themselves.
+    for (auto scan = survey_.scans.rbegin(); scan != survey_.scans.rend(); ++scan) {
+      survey_.stations[static_cast<std::size_t>(scan->station)].heading.heading_rad =
+          scan->map_from_vehicle.theta;
+    }
     return std::move(survey_);
   }
 
@@ -90,7 +96,9 @@ class StationSurvey {
       const auto station = static_cast<int>(same - stations.begin());
       if (same == stations.end()) {
         stations.push_back({given_[i].position, {}, 0, true});
-        views_.push_back({given_[i].position, given_[i].heading, {}});
+        const Vector2d eye = given_[i].scan.vehicle_from_laser.translation();
+        views_.push_back(
+            {given_[i].position, given_[i].heading, {}, StationSight(eye), walls_.sure_range_m});
       }
       ++stations[static_cast<std::size_t>(station)].scans;
       survey_.scans.push_back({i, station, {}, {}});
@@ -127,6 +135,7 @@ class StationSurvey {
     for (std::size_t station = 0; station < views_.size(); ++station) {
       StationView& view = views_[station];
       view.points = points_of(scans_of[station].front());
+      view.sight.add(given_[scans_of[station].front()].scan, 0.0, scanner_);
       StationField field(view.points, options_.search.coarse_blur_m);
       for (std::size_t k = 1; k < scans_of[station].size(); ++k) {
         const std::size_t scan = scans_of[station][k];
@@ -136,12 +145,14 @@ class StationSurvey {
                                 -reach, reach, kTurnStep);
         turn = find_turn(points, field, turn - kTurnStep, turn + kTurnStep, kFineTurn);
         turns_[scan] = turn;
+        view.sight.add(given_[scan].scan, turn, scanner_);
         const RigidTransform carry({0.0, 0.0, turn});
         for (const StationPoint& p : points) {
           view.points.push_back({carry.point(p.point), carry.direction(p.normal)});
         }
       }
       view.points = thin_points(view.points, 0.5 * options_.search.point_spacing_m);
+      view.sight.finish();
     }
   }
 
@@ -174,11 +185,51 @@ class StationSurvey {
     for (std::size_t i = 0; i < given_.size(); ++i) {
       const LaserScan& scan = given_[i].scan;
       SurveyedScan& found = survey_.scans[i];
+      found.map_from_vehicle.theta = likelier_heading(map, i);
       turn_onto(map, scan, found.map_from_vehicle);
       const std::vector<double> ranges = ranges_to_walls(map, scan, found.map_from_vehicle);
       found.tilt = estimate_tilt(scan, ranges, options_.tilt);
-      level_[i] = level_scan(scan, ranges, found.tilt, options_.tilt);
+      level_[i] = level_scan(scan, ranges, found.tilt, options_.tilt, scanner_);
     }
+  }
+
+  /// The scan's heading, or the one the other way or its station's where walls speak for that.
+  double likelier_heading(const LineMap& map, std::size_t scan) {
+    const SurveyedScan& found = survey_.scans[scan];
+    const auto& station = survey_.stations[static_cast<std::size_t>(found.station)];
+    const auto score = [&](double theta) {
+      Pose2 pose = found.map_from_vehicle;
+      pose.theta = theta;
+      return fit_to_walls(map, given_[scan].scan, pose);
+    };
+    double best = found.map_from_vehicle.theta;
+    double most = score(best) + kClearlyBetter;
+    for (const double other : {wrap_angle(best + kPi), station.heading.heading_rad}) {
+      const double fits = score(other);
+      if (fits <= most) continue;
+      most = fits;
+      best = other;
+    }
+    return best;
+  }
+
+  /// Share of the beams that end at a wall, less the share of those that went through one. What
+  /// ends before is clutter, roof or floor and says nothing.
+  double fit_to_walls(const LineMap& map, const LaserScan& scan, const Pose2& map_from_vehicle) {
+    const std::vector<double> walls = ranges_to_walls(map, scan, map_from_vehicle);
+    double sum = 0.0;
+    double beams = 0.0;
+    for (std::size_t i = 0; i < walls.size(); ++i) {
+      if (!scan.has_return(i)) continue;
+      beams += 1.0;
+      const double beyond = scan.ranges[i] - walls[i];
+      if (beyond > options_.search.through_m) {
+        sum -= 1.0;
+      } else if (beyond > -options_.search.through_m) {
+        sum += 1.0;
+      }
+    }
+    return beams > 0.0 ? sum / beams : 0.0;
   }
 
   /// Gauss-Newton on the heading alone; hits pull by their distance from the nearest wall.

@@ -53,16 +53,21 @@ void expect_headings(const Stations& truth, const KnownPositionsSurvey& survey, 
   }
 }
 
-/// How much wall was found (m); each must lie within `near_m` of a true one.
+/// How much wall was found (m); each must lie within `near_m` of a true one, or within three of its
+/// own sigmas where it was seen from afar only.
 double length_near_truth(const Stations& truth, const WallMap& walls, double near_m) {
   double length = 0.0;
-  for (const Segment& s : walls.segments()) {
-    double least = 1e9;
-    for (const Segment& w : truth.walls) {
-      least = std::min(least, distance(w, 0.5 * (s.a + s.b)));
+  for (const SurveyedWallLine& line : walls.lines) {
+    for (const SurveyedWall& piece : line.pieces) {
+      const Segment& s = piece.segment;
+      double least = 1e9;
+      for (const Segment& w : truth.walls) {
+        least = std::min(least, distance(w, 0.5 * (s.a + s.b)));
+      }
+      EXPECT_LT(least, std::max(near_m, 3.0 * piece.offset_sigma_m()))
+          << "wall from " << s.a.transpose() << " to " << s.b.transpose();
+      length += s.length();
     }
-    EXPECT_LT(least, near_m);
-    length += s.length();
   }
   return length;
 }
@@ -103,6 +108,61 @@ TEST(SurveyKnownPositions, KeepsNearTheHeadingsThatAreGiven) {
   expect_headings(stations, *survey, radians(0.5));
 }
 
+/// Stations round a gallery that looks alike forwards and backwards, by a scanner that does not
+/// look behind itself.
+Stations stations_round_a_ring() {
+  Stations out;
+  const auto add_loop = [&](const std::vector<Vector2d>& corners) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      out.walls.push_back({corners[i], corners[(i + 1) % corners.size()]});
+    }
+  };
+  add_loop({{0.0, 0.0},
+            {20.0, 0.0},
+            {20.0, 14.0},
+            {8.0, 14.0},
+            {8.0, 13.0},
+            {7.0, 13.0},
+            {7.0, 14.0},
+            {0.0, 14.0}});
+  add_loop({{3.0, 3.0},
+            {3.0, 11.0},
+            {17.0, 11.0},
+            {17.0, 3.0},
+            {12.0, 3.0},
+            {12.0, 4.0},
+            {9.0, 4.0},
+            {9.0, 3.0}});
+  const RayCaster caster(out.walls);
+  Random random(5);
+  const std::vector<Vector2d> way{{1.5, 1.5}, {18.5, 1.5}, {18.5, 12.5}, {1.5, 12.5}, {1.5, 1.5}};
+  for (std::size_t leg = 0; leg + 1 < way.size(); ++leg) {
+    const Vector2d along = way[leg + 1] - way[leg];
+    const double heading = std::atan2(along.y(), along.x());
+    for (double done = 0.2; done < along.norm(); done += 3.6) {
+      const Vector2d at = way[leg] + done * along.normalized();
+      const Pose2 pose{at.x(), at.y(), heading};
+      out.scans.push_back({simulate_scan(caster, pose, sick(), random), at, std::nullopt});
+      out.headings.push_back(heading);
+    }
+  }
+  return out;
+}
+
+TEST(SurveyKnownPositions, TakesNoStationForReversedInAGalleryThatLooksAlikeBothWays) {
+  const Stations stations = stations_round_a_ring();
+  KnownPositionsOptions by_stations;  // by what other stations saw through
+  by_stations.rounds = 0;
+  KnownPositionsOptions by_walls;
+  by_walls.search.against = 0.0;
+  for (const KnownPositionsOptions& options : {by_stations, by_walls, KnownPositionsOptions{}}) {
+    const auto survey = survey_known_positions(stations.scans, sick().model, options);
+    ASSERT_TRUE(survey.has_value());
+    expect_headings(stations, *survey, radians(1.0));
+    EXPECT_GT(length_near_truth(stations, survey->walls, 0.1), 110.0);
+  }
+}
+
 TEST(SurveyKnownPositions, RefusesStationsThatShareNoWalls) {
   Stations stations = stations_in_a_panel();
   stations.scans.resize(4);
@@ -124,6 +184,19 @@ TEST(SurveyKnownPositions, LeavesOutAStationThatNoOtherAgreesWith) {
   EXPECT_EQ(survey->visits.size(), 14U);
   EXPECT_TRUE(std::is_sorted(survey->visits.begin(), survey->visits.end()));
   for (const PosedScan& scan : survey->levelled) EXPECT_LT(scan.map_from_vehicle.y, 250.0);
+  EXPECT_GT(length_near_truth(stations, survey->walls, 0.15), 40.0);
+}
+
+TEST(SurveyKnownPositions, LeavesOutAStationWhosePositionIsWrong) {
+  Stations stations = stations_in_a_panel();
+  for (std::size_t i = 8; i < 10; ++i) stations.scans[i].position.y() += 10.0;  // within a pillar
+  const auto survey = survey_known_positions(stations.scans, sick().model);
+  ASSERT_TRUE(survey.has_value());
+  for (std::size_t s = 0; s < survey->stations.size(); ++s) {
+    EXPECT_EQ(survey->stations[s].placed, s != 4)
+        << "agreement " << survey->stations[s].heading.agreement << ", contradiction "
+        << survey->stations[s].heading.contradiction;
+  }
   EXPECT_GT(length_near_truth(stations, survey->walls, 0.15), 40.0);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "adit/relocation/share_out.hpp"
 
@@ -36,13 +37,31 @@ std::vector<PlacedShape> around(const LoopScene& scene, std::size_t middle, int 
                    std::min(scene.keyframes.size(), middle + half + 1));
 }
 
-bool is_known(std::span<const Closure> known, std::size_t target, std::size_t query,
-              const LoopOptions& options) {
-  return std::any_of(known.begin(), known.end(), [&](const Closure& c) {
-    return apart(c.to, query) < static_cast<std::size_t>(options.query_stride) &&
-           apart(c.from, target) <= static_cast<std::size_t>(options.target_keyframes);
-  });
-}
+/// Closures by their queries.
+class KnownClosures {
+ public:
+  explicit KnownClosures(std::span<const Closure> known) {
+    for (const Closure& c : known) rows_.emplace_back(c.to, c.from);
+    std::sort(rows_.begin(), rows_.end());
+  }
+
+  /// Whether one says already what a target and a query would.
+  bool hold(std::size_t target, std::size_t query, const LoopOptions& options) const {
+    const auto stride = static_cast<std::size_t>(options.query_stride);
+    const std::size_t first = query + 1 > stride ? query + 1 - stride : 0;
+    auto row = std::lower_bound(rows_.begin(), rows_.end(), Row{first, 0});
+    for (; row != rows_.end() && row->first < query + stride; ++row) {
+      if (apart(row->second, target) <= static_cast<std::size_t>(options.target_keyframes)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+ private:
+  using Row = std::pair<std::size_t, std::size_t>;
+  std::vector<Row> rows_;
+};
 
 /// Where the way since one keyframe, or back from it, becomes longer than this: the first that is
 /// left out, but none from `limit` on.
@@ -196,32 +215,17 @@ class TargetSearch {
 /// A target near enough to a query to be compared with it.
 struct Offer {
   std::size_t target = 0;  // place in the list
-  std::size_t query = 0;
   double distance = 0.0;
   RelativeSigma sigma;
+
+  double cost() const { return distance + sigma.metres; }
 };
 
-/// All queries that may have seen what a target shows.
-std::vector<Offer> offers_of(const LoopScene& scene, std::size_t target, std::size_t place,
-                             const LoopOptions& options) {
-  const std::vector<RelativeSigma> sigmas = scene.drift.from(target, scene.poses, scene.limit_m);
-  const std::size_t stride = static_cast<std::size_t>(std::max(1, options.query_stride));
-  const std::size_t first = target + static_cast<std::size_t>(options.least_apart);
-  std::vector<Offer> offers;
-  for (std::size_t q = (first + stride - 1) / stride * stride; q < scene.poses.size();
-       q += stride) {
-    if (!sigmas[q].known) continue;
-    const double distance =
-        (scene.poses[target].translation() - scene.poses[q].translation()).norm();
-    if (distance > options.sight_m + options.window_sigmas * sigmas[q].metres) continue;
-    offers.push_back({place, q, distance, sigmas[q]});
-  }
-  return offers;
-}
-
-/// Of one query's offers, by target, the nearest of each pass, and of those the nearest few.
-void keep_nearest(std::vector<Offer>& offers, const LoopOptions& options) {
+/// Of one query's offers the nearest of each pass, by target.
+std::vector<Offer> nearest_of_passes(std::vector<Offer> offers) {
   constexpr std::size_t kSamePass = 3;  // targets
+  std::stable_sort(offers.begin(), offers.end(),
+                   [](const Offer& a, const Offer& b) { return a.target < b.target; });
   std::vector<Offer> kept;
   std::size_t last = 0;
   for (const Offer& offer : offers) {
@@ -233,33 +237,89 @@ void keep_nearest(std::vector<Offer>& offers, const LoopOptions& options) {
       kept.back() = offer;
     }
   }
-  std::stable_sort(kept.begin(), kept.end(), [](const Offer& a, const Offer& b) {
-    return a.distance + a.sigma.metres < b.distance + b.sigma.metres;
-  });
-  const std::size_t most = static_cast<std::size_t>(std::max(1, options.most_targets));
-  if (kept.size() > most) kept.resize(most);
-  offers = std::move(kept);
+  return kept;
 }
+
+/// Finds which targets a query may show: those of the passes that are nearest and known best.
+class OfferSearch {
+ public:
+  OfferSearch(const LoopScene& scene, std::span<const std::size_t> targets,
+              const LoopOptions& options)
+      : scene_(scene), targets_(targets), options_(options), drift_(scene.drift, scene.poses) {}
+
+  std::vector<Offer> of(std::size_t query) {
+    std::size_t wanted = count_near(query);
+    const std::size_t stride = static_cast<std::size_t>(std::max(1, options_.target_stride));
+    std::vector<Offer> offers;
+    if (wanted == 0) return offers;
+    drift_.begin(query);
+    while (wanted > 0) {
+      const auto reached = drift_.next(scene_.limit_m);
+      if (!reached) break;
+      if (reached->node % stride != 0 || !is_near(query, reached->node)) continue;
+      --wanted;
+      const double apart_m = distance(query, reached->node);
+      if (apart_m > options_.sight_m + options_.window_sigmas * reached->sigma.metres) continue;
+      offers.push_back({reached->node / stride, apart_m, reached->sigma});
+      if (is_enough(offers, reached->sigma.metres)) break;
+    }
+    std::vector<Offer> best = nearest_of_passes(std::move(offers));
+    std::stable_sort(best.begin(), best.end(),
+                     [](const Offer& a, const Offer& b) { return a.cost() < b.cost(); });
+    if (best.size() > most()) best.resize(most());
+    return best;
+  }
+
+ private:
+  std::size_t most() const { return static_cast<std::size_t>(std::max(1, options_.most_targets)); }
+
+  double distance(std::size_t a, std::size_t b) const {
+    return (scene_.poses[a].translation() - scene_.poses[b].translation()).norm();
+  }
+
+  bool is_near(std::size_t query, std::size_t target) const {
+    return target + static_cast<std::size_t>(options_.least_apart) <= query &&
+           distance(query, target) <= options_.sight_m + options_.window_sigmas * scene_.limit_m;
+  }
+
+  std::size_t count_near(std::size_t query) const {
+    return static_cast<std::size_t>(std::count_if(
+        targets_.begin(), targets_.end(), [&](std::size_t t) { return is_near(query, t); }));
+  }
+
+  /// Those not yet reached are hardly known better than `metres`: hardly one of them costs less.
+  bool is_enough(const std::vector<Offer>& offers, double metres) const {
+    if (offers.size() < most()) return false;
+    const std::vector<Offer> passes = nearest_of_passes(offers);
+    const auto cheaper = std::count_if(passes.begin(), passes.end(),
+                                       [&](const Offer& offer) { return offer.cost() <= metres; });
+    return static_cast<std::size_t>(cheaper) >= most();
+  }
+
+  const LoopScene& scene_;
+  std::span<const std::size_t> targets_;
+  const LoopOptions& options_;
+  DriftSearch drift_;
+};
 
 /// What is to be compared, as lists by target.
 std::vector<std::vector<Candidate>> choose_pairs(const LoopScene& scene,
                                                  std::span<const std::size_t> targets,
                                                  std::span<const Closure> known,
                                                  const LoopOptions& options, int threads) {
-  std::vector<std::vector<Offer>> by_target(targets.size());
-  share_out(targets.size(), threads, [&] {
-    return [&](std::size_t t) { by_target[t] = offers_of(scene, targets[t], t, options); };
+  const std::size_t stride = static_cast<std::size_t>(std::max(1, options.query_stride));
+  std::vector<std::vector<Offer>> by_query((scene.poses.size() + stride - 1) / stride);
+  share_out(by_query.size(), threads, [&] {
+    return [&, search = OfferSearch(scene, targets, options)](std::size_t i) mutable {
+      by_query[i] = search.of(i * stride);
+    };
   });
-  std::vector<std::vector<Offer>> by_query(scene.poses.size());
-  for (const auto& offers : by_target) {
-    for (const Offer& offer : offers) by_query[offer.query].push_back(offer);
-  }
+  const KnownClosures closures(known);
   std::vector<std::vector<Candidate>> out(targets.size());
-  for (auto& offers : by_query) {
-    keep_nearest(offers, options);
-    for (const Offer& offer : offers) {
-      if (is_known(known, targets[offer.target], offer.query, options)) continue;
-      out[offer.target].push_back({offer.query, offer.sigma});
+  for (std::size_t i = 0; i < by_query.size(); ++i) {
+    for (const Offer& offer : by_query[i]) {
+      if (closures.hold(targets[offer.target], i * stride, options)) continue;
+      out[offer.target].push_back({i * stride, offer.sigma});
     }
   }
   return out;

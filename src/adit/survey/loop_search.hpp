@@ -33,9 +33,11 @@ std::vector<Closure> search_loops(const LoopScene& scene, std::span<const Closur
                                   const LoopOptions& options, const AlignmentOptions& alignment,
                                   int threads);
 
-/// The largest set of closures that agree with each other through the chain between them (pairwise
-/// consistency, Mangelson et al. 2018), without those that too few others support. `known` have
-/// been accepted before and stay.
+/// Closures that agree pairwise through the chain between them, with each other and with `known`,
+/// which have been accepted before and stay; without those that too few others support.
+///
+/// The largest such set is hard to find (Mangelson et al. 2018); this one is grown greedily, from
+/// the closure with most support on.
 std::vector<Closure> consistent_set(const LoopScene& scene, std::span<const Closure> candidates,
                                     std::span<const Closure> known, const LoopOptions& options);
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace adit {
 namespace {
 
@@ -50,9 +52,10 @@ std::vector<PoseConstraint> constraints_of(const Chain& chain) {
 class ConsistentSet : public testing::Test {
  protected:
   ConsistentSet() : chain_(60), drift_(60, constraints_of(chain_)) {}
-  std::vector<Closure> accepted(const std::vector<Closure>& candidates) const {
+  std::vector<Closure> accepted(const std::vector<Closure>& candidates,
+                                const std::vector<Closure>& known = {}) const {
     const LoopScene scene{chain_.keyframes, chain_.poses, drift_, 2.0};
-    return consistent_set(scene, candidates, {}, LoopOptions{});
+    return consistent_set(scene, candidates, known, LoopOptions{});
   }
   Chain chain_;
   DriftBound drift_;
@@ -83,6 +86,23 @@ TEST_F(ConsistentSet, RefusesThoseOfWhichNoTwoAgree) {
                   .empty());
 }
 
+/// However many agree among themselves.
+TEST_F(ConsistentSet, RefusesThoseThatContradictOneAcceptedBefore) {
+  const Vector2d drift(0.4, -0.2);
+  const Vector2d other(3.4, -0.2);
+  const std::vector<Closure> candidates = {
+      closure(chain_, 10, 49, other), closure(chain_, 8, 51, other), closure(chain_, 6, 53, other)};
+  EXPECT_EQ(accepted(candidates).size(), 3U);
+  EXPECT_TRUE(accepted(candidates, {closure(chain_, 9, 50, drift)}).empty());
+}
+
+TEST_F(ConsistentSet, ThoseAcceptedBeforeSupport) {
+  const Vector2d drift(0.4, -0.2);
+  const auto set = accepted({closure(chain_, 10, 49, drift)},
+                            {closure(chain_, 9, 50, drift), closure(chain_, 7, 52, drift)});
+  EXPECT_EQ(set.size(), 1U);
+}
+
 TEST(DriftBound, GrowsAlongTheWayAndShrinksAcrossAClosure) {
   const Chain chain(60);
   std::vector<PoseConstraint> constraints = constraints_of(chain);
@@ -101,6 +121,25 @@ TEST(DriftBound, KnowsNothingBeyondItsLimit) {
   const auto sigmas = DriftBound(60, constraints_of(chain)).from(0, chain.poses, 0.05);
   EXPECT_TRUE(sigmas[1].known);
   EXPECT_FALSE(sigmas[59].known);
+}
+
+TEST(DriftSearch, MayBeAskedOfOneNodeAfterAnother) {
+  const Chain chain(60);
+  const DriftBound bound(60, constraints_of(chain));
+  DriftSearch search(bound, chain.poses);
+  for (const std::size_t source : {5UL, 40UL, 5UL}) {
+    const auto expected = bound.from(source, chain.poses, 0.2);
+    search.begin(source);
+    std::size_t count = 0;
+    while (const auto reached = search.next(0.2)) {
+      EXPECT_EQ(reached->sigma.metres, expected[reached->node].metres);
+      ++count;
+    }
+    EXPECT_EQ(count, static_cast<std::size_t>(
+                         std::count_if(expected.begin(), expected.end(),
+                                       [](const RelativeSigma& s) { return s.known; })));
+    EXPECT_GT(count, 10U);
+  }
 }
 
 }  // namespace

@@ -38,9 +38,10 @@ void ScanTracker::rebuild_local_map() {
   field_.build(shapes, false, kTrackingField);
 }
 
-SearchWindow ScanTracker::window_around(const Pose2& predicted, const Matrix3d& covariance) const {
+SearchWindow ScanTracker::window_around(const Guess& guess) const {
+  const Matrix3d& covariance = guess.covariance;
   SearchWindow window;
-  window.middle = predicted;
+  window.middle = guess.predicted;
   window.sigma_m = std::sqrt(0.5 * (covariance(0, 0) + covariance(1, 1))) + 0.01;
   window.sigma_rad = std::sqrt(covariance(2, 2)) + 0.002;
   window.reach_m = std::min(options_.most_search_m,
@@ -51,38 +52,74 @@ SearchWindow ScanTracker::window_around(const Pose2& predicted, const Matrix3d& 
   return window;
 }
 
-ScanTracker::Placed ScanTracker::place(const ScanShape& shape, double beam_sigma_m,
-                                       const Pose2& predicted, const Matrix3d& covariance) {
-  const PlacedShape query{&shape, Pose2{}};
-  search_.set_points({&query, 1}, field_);
+Alignment ScanTracker::lay(const Guess& guess, const Pose2& start, const Pose2& prior) const {
   const double doubt2 = options_.odometry_doubt * options_.odometry_doubt;
-  const PosePrior prior{predicted, (doubt2 * covariance).inverse()};
-  SearchWindow window = window_around(predicted, covariance);
+  return align(guess.shape.points, local_, {prior, (doubt2 * guess.covariance).inverse()}, start,
+               guess.beam_sigma_m, alignment_options_);
+}
+
+/// Another place for a scan that does not fit where dead reckoning has it.
+std::optional<Alignment> ScanTracker::look_farther(const Guess& guess, SearchWindow window) {
+  window.reach_m = std::min(options_.most_search_m, 3.0 * window.reach_m);
+  window.reach_rad = std::min(options_.most_search_rad, 3.0 * window.reach_rad);
+  window.most_cost = options_.most_odometry_score;
+  window.sigma_m *= 2.0;
+  window.sigma_rad *= 2.0;
+  const auto far = search_.best(field_, window, options_.good_score - window.most_cost);
+  if (!far || far->score < options_.good_score) return std::nullopt;
+  return lay(guess, far->pose, far->pose);
+}
+
+/// Whether dead reckoning does not expect it; or expects so many places that one fits by chance.
+bool ScanTracker::is_surprising(const Guess& guess, const Alignment& fit) const {
+  const Vector3d off = difference(guess.predicted, fit.target_from_source);
+  return std::sqrt(off.dot(guess.covariance.inverse() * off)) > options_.surprising_sigmas ||
+         off.head<2>().norm() > options_.search_m || std::abs(off.z()) > options_.search_rad;
+}
+
+/// How well the points go with the walls at a pose, 0 to 1.
+double ScanTracker::closeness(const Guess& guess, const Pose2& pose) const {
+  const double reach = std::max(alignment_options_.last_reach_m, 3.0 * guess.beam_sigma_m);
+  const double scale = std::max({alignment_options_.scale_m, 2.0 * guess.beam_sigma_m,
+                                 0.3 * alignment_options_.last_reach_m});
+  const Linearization at = linearize(guess.shape.points, local_, pose, reach, scale);
+  return at.tried > 0 ? at.closeness / at.tried : 0.0;
+}
+
+/// Whether the scan alone says enough against dead reckoning. A pose elsewhere in the window is
+/// fitted by chance the sooner, the fewer points there are, and along a gallery any is.
+bool ScanTracker::is_sure(const Guess& guess, const Alignment& fit,
+                          double close_at_odometry) const {
+  return fit.matched >= options_.surprising_matched &&
+         fit.matched_share >= options_.surprising_share &&
+         closeness(guess, fit.target_from_source) >= close_at_odometry + options_.better_share;
+}
+
+ScanTracker::Placed ScanTracker::place(const Guess& guess) {
+  const PlacedShape query{&guess.shape, Pose2{}};
+  search_.set_points({&query, 1}, field_);
+  const SearchWindow window = window_around(guess);
   const auto near = search_.best(field_, window, 0.0);
-  Alignment fit = align(shape.points, local_, prior, near ? near->pose : predicted, beam_sigma_m,
-                        alignment_options_);
+  const Alignment beside = lay(guess, near ? near->pose : guess.predicted, guess.predicted);
+  const bool is_beside = !is_surprising(guess, beside);
+  const double close_at_odometry =
+      closeness(guess, is_beside ? beside.target_from_source : guess.predicted);
+  const auto is_believed = [&](const Alignment& fit) {
+    return !is_surprising(guess, fit) || is_sure(guess, fit, close_at_odometry);
+  };
+  std::optional<Alignment> fit;
+  if (is_believed(beside)) fit = beside;
   if (!near || near->score < options_.good_score) {
     // A scan of what was not seen before fits badly, too; elsewhere it would have to fit well.
-    window.reach_m = std::min(options_.most_search_m, 3.0 * window.reach_m);
-    window.reach_rad = std::min(options_.most_search_rad, 3.0 * window.reach_rad);
-    window.most_cost = options_.most_odometry_score;
-    window.sigma_m *= 2.0;
-    window.sigma_rad *= 2.0;
-    const auto far = search_.best(field_, window, options_.good_score - window.most_cost);
-    if (far && far->score >= options_.good_score) {
-      const Alignment other = align(shape.points, local_, {far->pose, prior.information}, far->pose,
-                                    beam_sigma_m, alignment_options_);
-      if (other.matched_share > fit.matched_share + options_.better_share) fit = other;
-    }
+    const auto other = look_farther(guess, window);
+    const bool is_better =
+        other && other->matched_share > beside.matched_share + options_.better_share;
+    if (is_better && is_believed(*other)) fit = other;
   }
-  const Vector3d off = difference(predicted, fit.target_from_source);
-  const double sigmas = std::sqrt(off.dot(covariance.inverse() * off));
-  const double least_share =
-      sigmas > options_.surprising_sigmas ? options_.surprising_share : options_.least_share;
-  if (fit.matched < options_.least_matched || fit.matched_share < least_share) {
-    return {predicted, Matrix3d::Zero()};
+  if (!fit || fit->matched < options_.least_matched || fit->matched_share < options_.least_share) {
+    return {guess.predicted, Matrix3d::Zero(), false};
   }
-  return {fit.target_from_source, fit.information};
+  return {fit->target_from_source, fit->information, true};
 }
 
 /// A running mean of how much larger the squared errors of dead reckoning are than stated.
@@ -145,10 +182,12 @@ void ScanTracker::add(const LaserScan& scan, const ScannerModel& scanner,
     covariance *= odometry_excess_;
     covariance.diagonal() +=
         Vector3d(options_.slip_m, options_.slip_m, options_.slip_rad).cwiseAbs2();
-    const Placed placed = place(shape, scanner.beam_sigma_m(), pose, covariance);
+    const Placed placed = place({shape, scanner.beam_sigma_m(), pose, covariance});
     pose = placed.pose;
-    last_pose_ = pose;
-    since_placed_ = {};
+    if (placed.found) {
+      last_pose_ = pose;
+      since_placed_ = {};
+    }
     const Pose2 since = inverse(keyframes_.back().pose) * pose;
     if (since.translation().norm() >= options_.keyframe_m ||
         std::abs(since.theta) >= options_.keyframe_rad) {

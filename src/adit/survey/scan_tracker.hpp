@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "adit/motion/odometry.hpp"
@@ -44,11 +45,23 @@ class ScanTracker {
   struct Placed {
     Pose2 pose;
     Matrix3d information = Matrix3d::Zero();  // of the scan alone, tracking frame
+    bool found = false;                       // else by dead reckoning alone
+  };
+  /// What is known of a scan before it is placed.
+  struct Guess {
+    const ScanShape& shape;
+    double beam_sigma_m;
+    Pose2 predicted;
+    Matrix3d covariance;
   };
 
-  Placed place(const ScanShape& shape, double beam_sigma_m, const Pose2& predicted,
-               const Matrix3d& covariance);
-  SearchWindow window_around(const Pose2& predicted, const Matrix3d& covariance) const;
+  Placed place(const Guess& guess);
+  std::optional<Alignment> look_farther(const Guess& guess, SearchWindow window);
+  Alignment lay(const Guess& guess, const Pose2& start, const Pose2& prior) const;
+  double closeness(const Guess& guess, const Pose2& pose) const;
+  bool is_surprising(const Guess& guess, const Alignment& fit) const;
+  bool is_sure(const Guess& guess, const Alignment& fit, double close_at_odometry) const;
+  SearchWindow window_around(const Guess& guess) const;
   void keep(ScanShape shape, double beam_sigma_m, const Placed& placed);
   void rebuild_local_map();
   void learn_excess(const Keyframe& frame);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "adit/simulation/ray_caster.hpp"
 #include "adit/simulation/scanner.hpp"
 
@@ -59,6 +61,37 @@ TEST(ScanTracker, FollowsADriveThatDeadReckoningLoses) {
   EXPECT_LT(difference(whole, found).head<2>().norm(), 0.06);
   EXPECT_GT(tracker.keyframes().size(), 20U);
   EXPECT_LT(tracker.keyframes().size(), 50U);
+}
+
+/// A hall is seen whole; then, from the same place, nothing but a corner like one of its own, a
+/// pace away from it.
+TEST(ScanTracker, AFewPointsDoNotOverruleDeadReckoning) {
+  const ScannerSpec scanner = sick_lms();
+  const RayCaster hall(kHall);
+  Random random(5);
+  ScanTracker tracker({}, {}, {}, {});
+  const Pose2 place{7.5, 2.5, 0.3};
+  tracker.add(scan_from(place, hall, scanner, random), scanner.model, {});
+  const Vector2d off(-0.45, 0.4);
+  LaserScan corner;
+  corner.first_bearing = scanner.first_bearing;
+  corner.bearing_step = scanner.bearing_step;
+  corner.max_range = scanner.model.max_range_m;
+  const LaserScan whole =
+      scan_from(Pose2{place.x + off.x(), place.y + off.y(), place.theta}, hall, scanner, random);
+  for (std::size_t i = 0; i < whole.ranges.size(); ++i) {
+    const Vector2d end =
+        off + place.translation() + whole.ranges[i] * unit_vector(place.theta + whole.bearing(i));
+    const bool is_corner = (end - Vector2d(14.0, 6.0)).norm() < 2.5;
+    corner.ranges.push_back(is_corner ? whole.ranges[i] : whole.max_range);
+  }
+  ASSERT_GT(std::count_if(corner.ranges.begin(), corner.ranges.end(),
+                          [&](double range) { return range < corner.max_range; }),
+            18);
+  tracker.add(corner, scanner.model, {0.05, 0.0, 0.0});
+  const TrackedScan& last = tracker.scans().back();
+  const Pose2 found = tracker.keyframes()[last.keyframe].pose * last.keyframe_from_scan;
+  EXPECT_LT(difference({0.05, 0.0, 0.0}, found).norm(), 0.1);
 }
 
 TEST(ScanTracker, GoesWithDeadReckoningWhereNothingIsSeen) {

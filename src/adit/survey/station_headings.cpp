@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace adit {
 namespace {
@@ -12,6 +11,7 @@ constexpr double kStill = radians(0.01);  // a sweep that turns no station more 
 constexpr double kFinestStep = radians(0.05);
 constexpr double kOtherStep = radians(0.25);
 constexpr std::size_t kOthers = 4;        // headings of each station that are tried again
+constexpr int kMostTrials = 4;            // of them; a heading that turns may turn others
 constexpr std::size_t kMostPoints = 500;  // of a station: more cost time and tell little more
 constexpr std::size_t kFewPoints = 120;   // enough to try a heading
 
@@ -63,6 +63,11 @@ class HeadingSearch {
     for (const StationView& s : stations) {
       points_.push_back(at_most(kMostPoints, thin_points(s.points, options.point_spacing_m)));
       sparse_.push_back(at_most(kFewPoints, points_.back()));
+      sure_.push_back(points_.back());
+      std::erase_if(sure_.back(), [&](const StationPoint& p) {
+        return p.point.norm() > s.sure_range_m ||
+               s.sight.share_seen_through({&p, 1}, {}, 0.5 * options.through_m) > 0.0;
+      });
     }
     blur(options.coarse_blur_m);
     for (std::size_t i = 0; i < stations.size(); ++i) neighbours_.push_back(neighbours_of(i));
@@ -75,7 +80,7 @@ class HeadingSearch {
     for (const double candidate : first_headings(first)) {
       std::vector<double> headings = grow(first, candidate);
       sweep(headings, 2.0 * options_.coarse_step_rad, 0.5 * options_.coarse_step_rad, sparse_);
-      const double total = total_agreement(headings);
+      const double total = total_score(headings);
       if (total <= most) continue;
       most = total;
       best = headings;
@@ -85,8 +90,9 @@ class HeadingSearch {
     }
     const auto others = other_headings(best);
     blur(options_.fine_blur_m);
+    bool changed = true;
     for (int i = 0; i < options_.sweeps; ++i) {
-      if (i == 1) try_others(others, best);
+      if (i > 0 && i <= kMostTrials && changed) changed = try_others(others, best);
       const double reach = i < 2 ? radians(1.5) : radians(0.5);
       if (sweep(best, reach, i < 2 ? radians(0.25) : 2.0 * kFinestStep, points_) < kStill) break;
     }
@@ -143,12 +149,15 @@ class HeadingSearch {
     return best;
   }
 
+  Pose2 pose_of(std::size_t i, double heading) const {
+    return {stations_[i].position.x(), stations_[i].position.y(), heading};
+  }
+
   /// How well what i saw agrees with what j saw.
   double agreement(std::size_t i, double heading_i, std::size_t j, double heading_j,
                    const Points& points) {
-    const Pose2 map_from_i{stations_[i].position.x(), stations_[i].position.y(), heading_i};
-    const Pose2 map_from_j{stations_[j].position.x(), stations_[j].position.y(), heading_j};
-    return fields_[j].mean_agreement(points[i], inverse(map_from_j) * map_from_i);
+    return fields_[j].mean_agreement(points[i],
+                                     inverse(pose_of(j, heading_j)) * pose_of(i, heading_i));
   }
 
   std::pair<double, double> bounds(std::size_t i) const {
@@ -180,21 +189,22 @@ class HeadingSearch {
   std::vector<double> grow(std::size_t first, double heading) {
     std::vector<double> headings(stations_.size(), 0.0);
     std::vector<char> placed(stations_.size(), 0);
+    std::vector<double> away(stations_.size(), 1e300);  // from the nearest that is placed (m)
+    std::size_t next = first;
     headings[first] = heading;
-    placed[first] = 1;
     for (std::size_t round = 1; round < stations_.size(); ++round) {
-      std::size_t next = first;
+      placed[next] = 1;
+      std::size_t nearest = next;
       double least = 1e300;
       for (std::size_t i = 0; i < stations_.size(); ++i) {
         if (placed[i] != 0) continue;
-        for (std::size_t j = 0; j < stations_.size(); ++j) {
-          if (placed[j] == 0 || apart(i, j) >= least) continue;
-          least = apart(i, j);
-          next = i;
-        }
+        away[i] = std::min(away[i], apart(i, next));
+        if (away[i] >= least) continue;
+        least = away[i];
+        nearest = i;
       }
+      next = nearest;
       headings[next] = place(next, headings, placed);
-      placed[next] = 1;
     }
     return headings;
   }
@@ -249,26 +259,54 @@ class HeadingSearch {
       }
       std::sort(scored.begin(), scored.end());
       others[i] = apart_by(kApart, scored, kOthers);
+      if (!stations_[i].heading) others[i].push_back(headings[i] + kPi);
     }
     return others;
   }
 
-  /// Takes another heading of a station where the sharp fields like it better.
-  void try_others(const std::vector<std::vector<double>>& others, std::vector<double>& headings) {
+  /// Takes another heading of a station where the sharp fields and what was open like it better;
+  /// whether any was taken.
+  bool try_others(const std::vector<std::vector<double>>& others, std::vector<double>& headings) {
+    bool changed = false;
     for (std::size_t i = 0; i < stations_.size(); ++i) {
-      const auto score = [&](double h) { return agreement_of(i, headings, h - headings[i]); };
       const double reach = options_.coarse_step_rad;
       double best = headings[i];
-      double most = score(best);
+      double most = score_of(i, headings, best);
       for (const double other : others[i]) {
-        const auto [heading, agrees] =
-            best_heading(other - reach, other + reach, kOtherStep, score);
-        if (agrees <= most) continue;
-        most = agrees;
+        const double heading =
+            best_heading(other - reach, other + reach, kOtherStep, [&](double h) {
+              return agreement_of(i, headings, h - headings[i]);
+            }).first;
+        if (std::abs(angle_between(heading, headings[i])) < reach) continue;
+        const double score = score_of(i, headings, heading);
+        if (score <= most) continue;
+        most = score;
         best = heading;
+        changed = true;
       }
       headings[i] = best;
     }
+    return changed;
+  }
+
+  /// Agreement with the neighbours, less by the share of it that is contradicted: where agreement
+  /// is rare, clutter that was seen through must not outweigh it.
+  double score_of(std::size_t i, const std::vector<double>& headings, double heading) {
+    const double contradicted = options_.against * contradiction_of(i, headings, heading);
+    return agreement_of(i, headings, heading - headings[i]) * std::max(0.0, 1.0 - contradicted);
+  }
+
+  /// Share of surfaces that one station saw and another's beams went through.
+  double contradiction_of(std::size_t i, const std::vector<double>& headings,
+                          double heading) const {
+    double sum = 0.0;
+    const Pose2 map_from_i = pose_of(i, heading);
+    for (const std::size_t j : neighbours_[i]) {
+      const Pose2 i_from_j = inverse(map_from_i) * pose_of(j, headings[j]);
+      sum += stations_[i].sight.share_seen_through(sure_[j], i_from_j, options_.through_m) +
+             stations_[j].sight.share_seen_through(sure_[i], inverse(i_from_j), options_.through_m);
+    }
+    return neighbours_[i].empty() ? 0.0 : 0.5 * sum / static_cast<double>(neighbours_[i].size());
   }
 
   double agreement_of(std::size_t i, const std::vector<double>& headings, double turn) {
@@ -279,9 +317,9 @@ class HeadingSearch {
     return neighbours_[i].empty() ? 0.0 : sum / static_cast<double>(neighbours_[i].size());
   }
 
-  double total_agreement(const std::vector<double>& headings) {
+  double total_score(const std::vector<double>& headings) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < stations_.size(); ++i) sum += agreement_of(i, headings, 0.0);
+    for (std::size_t i = 0; i < stations_.size(); ++i) sum += score_of(i, headings, headings[i]);
     return sum;
   }
 
@@ -297,7 +335,8 @@ class HeadingSearch {
       const double bend = std::max(1e-9, (middle - sides) / std::max(middle, 1e-9));
       const double width = step / std::sqrt(2.0 * bend);
       const auto count = static_cast<double>(std::max<std::size_t>(points_[i].size(), 1));
-      out.push_back({wrap_angle(headings[i]), middle, std::min(kPi, width / std::sqrt(count))});
+      out.push_back({wrap_angle(headings[i]), middle, std::min(kPi, width / std::sqrt(count)),
+                     contradiction_of(i, headings, headings[i])});
     }
     return out;
   }
@@ -306,6 +345,7 @@ class HeadingSearch {
   const HeadingOptions& options_;
   Points points_;
   Points sparse_;
+  Points sure_;  // those that are neither roof nor floor and that do not move
   std::vector<StationField> fields_;
   std::vector<std::vector<std::size_t>> neighbours_;
 };

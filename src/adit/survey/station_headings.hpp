@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "adit/survey/station_field.hpp"
+#include "adit/survey/station_sight.hpp"
 
 namespace adit {
 
@@ -19,6 +20,8 @@ struct HeadingOptions {
   int candidates = 8;
   int sweeps = 12;
   double given_within_rad = radians(15.0);
+  double through_m = 0.5;
+  double against = 2.0;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -34,6 +37,10 @@ struct HeadingOptions {
     field("sweeps", self.sweeps, "most rounds over all stations with the fine step");
     field("given_within_rad", self.given_within_rad,
           "a heading that is given is looked for no farther than this from there (rad)");
+    field("through_m", self.through_m,
+          "a beam that ends farther than this behind what another station saw contradicts it (m)");
+    field("against", self.against,
+          "how much the share of such surfaces, of 1, lessens the agreement");
   }
 };
 
@@ -42,6 +49,8 @@ struct StationView {
   Vector2d position = Vector2d::Zero();
   std::optional<double> heading;     ///< rad, where it is known roughly
   std::vector<StationPoint> points;  ///< in the vehicle's frame
+  StationSight sight;                ///< the same frame; may be empty
+  double sure_range_m = 1e9;         ///< points farther than this may be roof or floor
 };
 
 /// The heading of one station.
@@ -49,6 +58,7 @@ struct StationHeading {
   double heading_rad = 0.0;
   double agreement = 0.0;  ///< from 0 to 1, with what the others saw
   double sigma_rad = 0.0;
+  double contradiction = 0.0;  ///< share of surfaces that were seen through, from 0 to 1
 };
 
 /// Headings of all stations such that what they saw agrees, in the frame of the positions.

@@ -105,7 +105,8 @@ ScanTilt estimate_tilt(const LaserScan& scan, std::span<const double> walls,
 }
 
 LaserScan level_scan(const LaserScan& scan, std::span<const double> walls, const ScanTilt& tilt,
-                     const TiltOptions& options) {
+                     const TiltOptions& options, const ScannerModel& scanner) {
+  const double none_from = scanner.no_return_from(scan.max_range);
   LaserScan level = scan;
   level.bearings.resize(scan.ranges.size());
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
@@ -116,7 +117,9 @@ LaserScan level_scan(const LaserScan& scan, std::span<const double> walls, const
     const double wall = i < walls.size() ? walls[i] : kNever;
     const double slack = 3.0 * std::hypot(options.wall_error_m, options.roof_error_ratio * roof);
     const bool at_wall = std::abs(scan.ranges[i] - wall) <= 2.0 * options.wall_error_m;
-    if (scan.ranges[i] > roof - slack && !at_wall) {
+    // Foreshortened, the maximum would look like a return a little nearer.
+    const bool none = !scan.has_return(i) || scan.ranges[i] >= none_from;
+    if (none || (scan.ranges[i] > roof - slack && !at_wall)) {
       level.ranges[i] = std::numeric_limits<double>::quiet_NaN();
     } else {
       level.ranges[i] = scan.ranges[i] * beam.head<2>().norm();

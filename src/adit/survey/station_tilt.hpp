@@ -55,6 +55,6 @@ ScanTilt estimate_tilt(const LaserScan& scan, std::span<const double> walls,
 /// The scan as a level scanner would have taken it: ranges foreshortened, bearings turned, and
 /// beams that ended at roof or floor, or beyond where these must be, without return.
 LaserScan level_scan(const LaserScan& scan, std::span<const double> walls, const ScanTilt& tilt,
-                     const TiltOptions& options);
+                     const TiltOptions& options, const ScannerModel& scanner = {});
 
 }  // namespace adit

@@ -79,5 +79,22 @@ TEST(RangeToRoofOrFloor, IsThatOfALevelPlane) {
   EXPECT_EQ(range_to_roof_or_floor(1.0, {}, options), std::numeric_limits<double>::infinity());
 }
 
+TEST(LevelScan, MakesNoReturnOfABeamThatHadNone) {
+  LaserScan scan;
+  scan.first_bearing = 0.0;
+  scan.bearing_step = radians(1.0);
+  scan.max_range = 50.0;
+  scan.ranges = {50.0, 40.0, 8.0};
+  ScannerModel scanner;
+  scanner.max_range_m = 40.0;
+  TiltOptions options;
+  options.roof_above_m = options.floor_below_m = 0.0;
+  const std::vector<double> walls(3, 60.0);
+  const LaserScan level = level_scan(scan, walls, {radians(3.0), 0.0}, options, scanner);
+  EXPECT_FALSE(level.has_return(0));
+  EXPECT_FALSE(level.has_return(1));
+  EXPECT_NEAR(level.ranges[2], 8.0 * std::cos(radians(3.0)), 1e-3);
+}
+
 }  // namespace
 }  // namespace adit

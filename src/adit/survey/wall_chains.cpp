@@ -11,7 +11,8 @@ struct LinkRule {
   double reach = 0.0;         // m
   double least_turn = 0.0;    // cosine between the two walls' directions
   double least_ahead = 0.0;   // cosine between each direction and the way from one to the other
-  bool check_passes = false;  // whether beams that go through the gap forbid the link
+  bool check_passes = false;  // whether beams that go through the gap forbid the link ...
+  double behind = 0.0;        // ... so far behind it (m): flat beams graze a wall that has no gap
 };
 
 class Linker {
@@ -84,18 +85,19 @@ class Linker {
     const double leave = a.along().dot(way) / length;
     const double arrive = b.along().dot(way) / length;
     if (std::min(leave, arrive) < rule.least_ahead) return -1.0;
-    if (rule.check_passes && is_open(a, b)) return -1.0;
+    if (rule.check_passes && is_open(a, b, rule.behind)) return -1.0;
     return length * (1.0 + 2.0 * (1.0 - leave) + 2.0 * (1.0 - arrive) + (1.0 - turn));
   }
 
   /// Whether more beams went through the gap than can have strayed into it.
-  bool is_open(const WallNode& a, const WallNode& b) {
+  bool is_open(const WallNode& a, const WallNode& b, double behind) {
     const Vector2d way = b.point - a.point;
+    const Vector2d start = a.point - behind * (a.normal + b.normal).normalized();
     const double hits = std::min(a.hits, b.hits) / (node_spacing(options_) / options_.cell_m);
     const int steps = static_cast<int>(way.norm() / options_.cell_m);
     int open = 0;
     for (int i = 2; i + 1 < steps; ++i) {
-      const int passes = evidence_.passes_at(a.point + way * (static_cast<double>(i) / steps));
+      const int passes = evidence_.passes_at(start + way * (static_cast<double>(i) / steps));
       if (passes > 2 && passes > 0.5 * hits) ++open;
     }
     return open >= 2;
@@ -145,7 +147,8 @@ std::vector<WallChain> link_wall_nodes(std::span<const WallNode> nodes, BeamEvid
   const double spacing = node_spacing(options);
   linker.link({2.5 * spacing, 0.5, 0.6, false});          // neighbours
   linker.link({options.corner_gap_m, -0.5, -0.3, true});  // round a corner
-  linker.link({options.gap_m, 0.8, 0.85, true});          // straight across a gap
+  linker.link(
+      {options.gap_m, 0.8, 0.85, true, 0.5 * options.seen_through_m});  // straight across a gap
   return linker.chains();
 }
 

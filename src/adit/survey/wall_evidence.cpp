@@ -57,6 +57,7 @@ void BeamEvidence::add(std::span<const WallHit> hits, int visit) {
     facets_[index(f)].hits += 1.0;
     if (hit.range <= options_.sure_range_m) facets_[index(f)].near = true;
     if (g.last_scan != scan_) ++facets_[index(f)].scans;
+    facets_[index(f)].scan_set |= std::uint64_t{1} << (static_cast<unsigned>(scan_) % 64U);
     g.last_scan = scan_;
   }
 }

@@ -18,6 +18,7 @@ struct Facet {
   int scans = 0;
   int visits = 0;
   std::uint64_t visit_set = 0;  ///< a bit for each visit, modulo 64
+  std::uint64_t scan_set = 0;   ///< a bit for each scan, modulo 64
   bool near = false;            ///< met from no farther than WallOptions::sure_range_m
   double in_place = 0.0;        ///< votes of visits that found it
   double seen_through = 0.0;    ///< votes of visits whose beams went through

@@ -148,6 +148,7 @@ void add_support(BeamEvidence& evidence, const std::vector<Settled>& settled, do
   std::vector<double> weights(nodes.size(), 0.0);
   std::vector<double> visits(nodes.size(), 0.0);
   std::vector<std::uint64_t> visit_sets(nodes.size(), 0);
+  std::vector<std::uint64_t> scan_sets(nodes.size(), 0);
   for (std::size_t i = 0; i < settled.size(); ++i) {
     if (!settled[i].alive) continue;
     const Facet& facet = evidence.facets()[i];
@@ -168,11 +169,12 @@ void add_support(BeamEvidence& evidence, const std::vector<Settled>& settled, do
     node.scans += facet.scans;
     node.visits = std::max(node.visits, facet.visits);
     visit_sets[static_cast<std::size_t>(best)] |= facet.visit_set;
+    scan_sets[static_cast<std::size_t>(best)] |= facet.scan_set;
     node.sure = node.sure || facet.near;
   }
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     nodes[i].sure = nodes[i].sure || std::popcount(visit_sets[i]) >= options.min_far_visits ||
-                    nodes[i].scans >= options.min_far_scans;
+                    std::popcount(scan_sets[i]) >= options.min_far_scans;
     nodes[i].visit_information = weights[i] / std::max(visits[i], 1.0);
   }
 }

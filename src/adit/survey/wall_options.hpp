@@ -23,7 +23,7 @@ struct WallOptions {
   int min_scans = 3;
   double sure_range_m = 1e9;
   int min_far_visits = 2;
-  int min_far_scans = 6;
+  int min_far_scans = 3;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
