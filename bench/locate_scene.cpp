@@ -135,7 +135,7 @@ LocateScene panel_scene(const LocateOptions& options, const ScannerSpec& spec, d
 
 /// Scans of a real log that have a reference pose, drawn at random.
 Result<LocateScene> log_scene(const LocateOptions& options) {
-  constexpr double kSameStamp = 1e-3;  // s
+  constexpr double kSameStamp = 1e-5;  // s: scans were stored a millisecond apart in bursts
   const auto plan = read_plan(options.data + "/intel/map.csv");
   if (!plan) return tl::unexpected(plan.error());
   const auto log = read_log(options.data + "/intel/log.clf");

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "adit/extraction/extraction.hpp"
 #include "adit/geometry/angle.hpp"
+#include "adit/relocation/corner_index.hpp"
 
 namespace adit {
 
@@ -9,7 +11,8 @@ struct PlaceIndexOptions {
   double pitch_m = 0.75;
   double finest_pitch_m = 0.35;
   double enough_places = 2.0e4;
-  double most_places = 6.0e6;
+  double most_places = 2.5e6;
+  double coarsest_pitch_m = 2.0;
   double max_range_m = 80.0;
   double least_clearance_m = 0.3;
   double least_in_sight = 0.5;
@@ -21,7 +24,10 @@ struct PlaceIndexOptions {
           "in a small plan they lie as near as this (m) ...");
     field("enough_places", self.enough_places, "... while that makes no more of them than this");
     field("most_places", self.most_places,
-          "they lie farther apart where the plan would hold more of them than this");
+          "they lie farther apart where the plan would hold more of them than this ...");
+    field("coarsest_pitch_m", self.coarsest_pitch_m,
+          "... and where they would have to lie farther apart than this, there are none: corners "
+          "alone are looked for (m)");
     field("max_range_m", self.max_range_m, "a place's walls are looked for as far as this (m)");
     field("least_clearance_m", self.least_clearance_m,
           "no scanner stands nearer to a wall than this (m)");
@@ -40,6 +46,8 @@ struct LikelihoodOptions {
   double dropout_ratio = 0.05;
   double gone_ratio = 0.005;
   double trust = 0.2;
+  double trust_most = 0.4;
+  double trusted_error_ratio = 0.25;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -59,7 +67,48 @@ struct LikelihoodOptions {
         "wall that is gone, and meets the one beyond");
     field("trust", self.trust,
           "what counts of a log likelihood: what stands before the walls, and how they differ from "
-          "the plan, is shared by more beams than the model knows");
+          "the plan, is shared by more beams than the model knows ...");
+    field(
+        "trusted_error_ratio", self.trusted_error_ratio,
+        "... in proportion more where the plan errs by less than this part of what is stated: the "
+        "less it does, the less is shared ...");
+    field("trust_most", self.trust_most, "... but no more than this");
+  }
+};
+
+/// How the corners of a scan are taken for those of a plan.
+struct CornerSearchOptions {
+  ExtractionOptions extraction;
+  CornerLimits limits{1.0, 0.35, 8.0};
+  double tolerance_rad = 0.2;
+  double gap_slack_m = 1.0;
+  int fewest = 2;
+  int most = 12;
+  double most_pairs = 2.0e6;
+  int returns = 16;
+  double sigma_m = 0.4;
+  double cell_m = 0.6;
+  double cell_rad = 0.1;
+
+  template <class Self, class Field>
+  static void visit(Self& self, Field&& field) {
+    CornerLimits::visit(self.limits, field);
+    field("corner_tolerance_rad", self.tolerance_rad,
+          "a corner of the plan opens as wide as one of the scan within this (rad)");
+    field("corner_gap_slack_m", self.gap_slack_m,
+          "its walls end farther from where they meet by no more than this (m): what hides them "
+          "makes "
+          "those of the scan shorter");
+    field("corner_fewest", self.fewest,
+          "so many corners of the scan are tried in a plan of any size");
+    field("corner_most", self.most,
+          "and no more than so many, those of the longest walls first ...");
+    field("corner_most_pairs", self.most_pairs,
+          "... while no more pairs of corners than this come of it");
+    field("corner_returns", self.returns, "so many returns rate each pair");
+    field("corner_sigma_m", self.sigma_m, "by how near they are to walls, one sigma (m)");
+    field("corner_cell_m", self.cell_m, "poses in one square of this side are one (m) ...");
+    field("corner_cell_rad", self.cell_rad, "... if in one sector of this width (rad)");
   }
 };
 
@@ -70,12 +119,18 @@ struct RelocationOptions {
   int first_bins = 16;
   double rated_share = 0.15;
   int fewest_rated = 8000;
-  double compared_share = 0.03;
-  int compared = 6000;
-  double moved_share = 0.02;
-  int moved = 3000;
+  double compared_share = 0.02;
+  int compared = 4000;
+  double moved_share = 0.01;
+  int moved = 1500;
   double moved_again_share = 0.002;
-  int moved_again = 400;
+  int moved_again = 300;
+  CornerSearchOptions corners;
+  double corners_moved_share = 0.02;
+  int corners_moved = 1000;
+  double corners_moved_again_share = 0.002;
+  int corners_moved_again = 150;
+  double agreement_per_through = 1.0;
   int first_beams = 30;
   int quick_beams = 100;
   double slack_ratio = 0.3;
@@ -93,12 +148,14 @@ struct RelocationOptions {
   double basin_rad = 0.1;
   double merge_m = 0.5;
   double merge_rad = radians(3.0);
+  double unfitted_gap = 50.0;
   double hopeless_gap = 25.0;
   double least_map_ratio = 0.1;
   double least_weight = 1e-4;
   double rival_weight = 0.02;
   double apart_m = 1.0;
   double apart_rad = radians(5.0);
+  double second_look_gap = 24.0;
   double sure_gap = 9.0;
   double sure_evidence_ratio = 0.85;
   double sure_evidence_per_gap = 0.012;
@@ -126,6 +183,15 @@ struct RelocationOptions {
     field("moved", self.moved, "but not fewer than this");
     field("moved_again_share", self.moved_again_share, "and the best of these moved on");
     field("moved_again", self.moved_again, "but not fewer than this");
+    field(
+        "corners_moved_share", self.corners_moved_share,
+        "so many poses that corners speak for, a share of the plan's corners, are moved likewise");
+    field("corners_moved", self.corners_moved, "but not fewer than this");
+    field("corners_moved_again_share", self.corners_moved_again_share,
+          "and the best of these moved on");
+    field("corners_moved_again", self.corners_moved_again, "but not fewer than this");
+    field("agreement_per_through", self.agreement_per_through,
+          "a return from behind a wall outweighs so many that lie at walls");
     field("first_beams", self.first_beams, "first with so many beams");
     field("quick_beams", self.quick_beams, "then with so many");
     field("slack_ratio", self.slack_ratio,
@@ -151,6 +217,10 @@ struct RelocationOptions {
     field("basin_rad", self.basin_rad, "the same for the heading (rad)");
     field("merge_m", self.merge_m, "fits no farther apart than this are one pose (m) ...");
     field("merge_rad", self.merge_rad, "... if no more turned than this (rad)");
+    field("unfitted_gap", self.unfitted_gap,
+          "a pose less likely than the best by more than this (log, all of it) is not fitted "
+          "further, "
+          "but for the best few");
     field("hopeless_gap", self.hopeless_gap,
           "a pose less likely than the best by more than this (log) is not fitted with all points");
     field("least_map_ratio", self.least_map_ratio,
@@ -161,6 +231,9 @@ struct RelocationOptions {
           "the best pose stands alone where all others together weigh less than this");
     field("apart_m", self.apart_m, "another pose is one farther than this (m) ...");
     field("apart_rad", self.apart_rad, "... or turned by more than this (rad)");
+    field("second_look_gap", self.second_look_gap,
+          "a pose that others come nearer to than this (log) is trusted only after a second search "
+          "that fits more of them");
     field("sure_gap", self.sure_gap,
           "a pose is sure only where every other one is less likely by this (log) ...");
     field("sure_evidence_ratio", self.sure_evidence_ratio,

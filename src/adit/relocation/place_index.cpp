@@ -22,43 +22,27 @@ double pitch_for(double area, const PlaceIndexOptions& options) {
   return std::max(std::min(options.pitch_m, fine), std::sqrt(area / options.most_places));
 }
 
-}  // namespace
-
-/// Looks around from the places of one row after the other.
-class PlaceIndex::RowBuilder {
+/// Looks around from places.
+class Viewer {
  public:
-  RowBuilder(const LineMap& map, const PlaceIndexOptions& options, const Vector2d& origin,
-             double pitch_m, int columns, std::vector<Row>& rows)
-      : map_(map),
-        options_(options),
-        origin_(origin),
-        pitch_m_(pitch_m),
-        columns_(columns),
-        rows_(rows) {}
+  Viewer(const LineMap& map, const PlaceIndexOptions& options) : map_(map), options_(options) {}
 
-  void operator()(std::size_t row) {
-    for (int column = 0; column < columns_; ++column) {
-      const PlaceArrays::Cell cell{column, static_cast<std::int32_t>(row)};
-      const Vector2d place = origin_ + pitch_m_ * Vector2d(cell.column, cell.row);
-      if (!is_clear(place)) continue;
-      look_around(place);
-      if (share_in_sight() < options_.least_in_sight) continue;
-      rows_[row].cells.push_back(cell);
-      rows_[row].codes.push_back(code_ranges(ranges_, kMargin));
-    }
+  /// False where no scanner may stand.
+  bool look_from(const Vector2d& place) {
+    constexpr double kStep = kTwoPi / static_cast<double>(kRays);
+    if (!is_clear(place)) return false;
+    visibility_.sweep(map_, place, options_.max_range_m);
+    visibility_.ranges(-kPi + 0.5 * kStep, kStep, ranges_);
+    return share_in_sight() >= options_.least_in_sight;
   }
+
+  std::span<const double> ranges() const { return ranges_; }
 
  private:
   bool is_clear(const Vector2d& place) {
     near_.clear();
     map_.near(place, options_.least_clearance_m, near_);
     return near_.empty();
-  }
-
-  void look_around(const Vector2d& place) {
-    constexpr double kStep = kTwoPi / static_cast<double>(kRays);
-    visibility_.sweep(map_, place, options_.max_range_m);
-    visibility_.ranges(-kPi + 0.5 * kStep, kStep, ranges_);
   }
 
   double share_in_sight() const {
@@ -69,30 +53,68 @@ class PlaceIndex::RowBuilder {
 
   const LineMap& map_;
   const PlaceIndexOptions& options_;
-  Vector2d origin_;
-  double pitch_m_;
-  int columns_;
-  std::vector<Row>& rows_;
   Visibility visibility_;
   std::vector<int> near_;
   std::array<double, kRays> ranges_{};
+};
+
+/// How large the part of a plan is where a scanner may stand, by sampling (m²).
+double area_inside(const LineMap& map, const PlaceIndexOptions& options) {
+  constexpr int kSide = 60;  // samples along each side
+  const Vector2d size = map.bounds().size();
+  Viewer viewer(map, options);
+  int inside = 0;
+  for (int row = 0; row < kSide; ++row) {
+    // Every row is offset by another part of a step, so that no pattern of the plan is met alike.
+    const double offset = std::fmod(0.618034 * row, 1.0);
+    for (int column = 0; column < kSide; ++column) {
+      const Vector2d part(column + offset, row + 0.5);
+      inside += viewer.look_from(map.bounds().min + size.cwiseProduct(part) / kSide);
+    }
+  }
+  return size.x() * size.y() * std::max(1, inside) / (kSide * kSide);
+}
+
+}  // namespace
+
+/// Lists the places of one row after the other.
+class PlaceIndex::RowBuilder {
+ public:
+  RowBuilder(const LineMap& map, const PlaceIndexOptions& options, const PlaceArrays& lattice,
+             int columns, std::vector<Row>& rows)
+      : viewer_(map, options), lattice_(lattice), columns_(columns), rows_(rows) {}
+
+  void operator()(std::size_t row) {
+    const Vector2d origin(lattice_.origin_x, lattice_.origin_y);
+    for (int column = 0; column < columns_; ++column) {
+      const PlaceArrays::Cell cell{column, static_cast<std::int32_t>(row)};
+      if (!viewer_.look_from(origin + lattice_.pitch_m * Vector2d(cell.column, cell.row))) continue;
+      rows_[row].cells.push_back(cell);
+      rows_[row].codes.push_back(code_ranges(viewer_.ranges(), kMargin));
+    }
+  }
+
+ private:
+  Viewer viewer_;
+  const PlaceArrays& lattice_;
+  int columns_;
+  std::vector<Row>& rows_;
 };
 
 PlaceIndex PlaceIndex::build(const LineMap& map, const PlaceIndexOptions& options, int threads) {
   PlaceArrays arrays;
   arrays.pitch_m = options.pitch_m;
   if (map.empty()) return PlaceIndex(map, std::move(arrays));
-  const Vector2d size = map.bounds().size();
-  arrays.pitch_m = pitch_for(size.x() * size.y(), options);
+  arrays.pitch_m = pitch_for(area_inside(map, options), options);
+  if (arrays.pitch_m > options.coarsest_pitch_m) return PlaceIndex(map, std::move(arrays));
   const double pitch = arrays.pitch_m;
-  const Vector2d origin = map.bounds().min + Vector2d::Constant(0.5 * pitch);
-  arrays.origin_x = origin.x();
-  arrays.origin_y = origin.y();
+  const Vector2d size = map.bounds().size();
+  arrays.origin_x = map.bounds().min.x() + 0.5 * pitch;
+  arrays.origin_y = map.bounds().min.y() + 0.5 * pitch;
   const auto columns = static_cast<int>(size.x() / pitch) + 1;
   const auto row_count = static_cast<std::size_t>(size.y() / pitch) + 1;
   std::vector<Row> rows(row_count);
-  share_out(row_count, threads,
-            [&] { return RowBuilder(map, options, origin, pitch, columns, rows); });
+  share_out(row_count, threads, [&] { return RowBuilder(map, options, arrays, columns, rows); });
   std::size_t count = 0;
   for (const Row& row : rows) count += row.cells.size();
   arrays.cells.reserve(count);
@@ -106,7 +128,7 @@ PlaceIndex PlaceIndex::build(const LineMap& map, const PlaceIndexOptions& option
 }
 
 PlaceIndex::PlaceIndex(const LineMap& map, PlaceArrays arrays)
-    : arrays_(std::move(arrays)), walls_(map) {
+    : arrays_(std::move(arrays)), walls_(map), corners_(map, walls_.origin()) {
   sort_ranges();
 }
 
@@ -128,7 +150,7 @@ void PlaceIndex::sort_ranges() {
 std::size_t PlaceIndex::memory() const {
   return arrays_.cells.capacity() * sizeof(PlaceArrays::Cell) +
          arrays_.codes.capacity() * sizeof(RangeBands) + sorted_.capacity() * sizeof(SortedRanges) +
-         walls_.memory();
+         walls_.memory() + corners_.memory();
 }
 
 }  // namespace adit

@@ -7,6 +7,7 @@
 
 #include "adit/geometry/pose2.hpp"
 #include "adit/map/line_map.hpp"
+#include "adit/relocation/corner_index.hpp"
 #include "adit/relocation/options.hpp"
 #include "adit/relocation/range_code.hpp"
 #include "adit/relocation/wall_field.hpp"
@@ -66,6 +67,7 @@ class PlaceIndex {
   std::span<const SortedRanges> sorted_ranges() const { return sorted_; }
 
   const WallField& walls() const { return walls_; }
+  const CornerIndex& corners() const { return corners_; }
 
  private:
   struct Row {
@@ -78,6 +80,7 @@ class PlaceIndex {
   PlaceArrays arrays_;
   std::vector<SortedRanges> sorted_;
   WallField walls_;
+  CornerIndex corners_;
 };
 
 }  // namespace adit

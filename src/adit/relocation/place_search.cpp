@@ -1,191 +1,16 @@
 #include "adit/relocation/place_search.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <tuple>
-
-// Where the linker can choose, the loops over bytes exist for machines with wider vectors as well;
-// integers throughout, so that all give the same.
-#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
-#define ADIT_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define ADIT_WIDE
-#endif
 
 namespace adit {
 namespace {
-
-constexpr std::size_t kMostFirstBins = 16;  // 16 times the largest cap fits a byte
-
-/// The caps as bytes.
-struct Caps {
-  std::uint8_t shorter = 0;
-  std::uint8_t longer = 0;
-};
-
-/// The codes twice over, so that every shift is a run of bytes, none beyond the scanner's sight.
-struct DoubledBands {
-  std::array<std::uint8_t, 2 * kRangeBins> nearest;
-  std::array<std::uint8_t, 2 * kRangeBins> farthest;
-
-  DoubledBands(const RangeBands& bands, std::uint8_t in_sight) {
-    for (std::size_t b = 0; b < kRangeBins; ++b) {
-      nearest[b] = std::min(bands.nearest[b], in_sight);
-      farthest[b] = std::min(bands.farthest[b], in_sight);
-    }
-    std::memcpy(nearest.data() + kRangeBins, nearest.data(), kRangeBins);
-    std::memcpy(farthest.data() + kRangeBins, farthest.data(), kRangeBins);
-  }
-};
-
-/// Adds what one bin of the scan says against all headings of a place. In bytes throughout, so that
-/// compilers make it vector instructions.
-inline void add_bin(const DoubledBands& plan, std::size_t bin, const ScanCodes& scan, Caps caps,
-                    std::array<std::uint8_t, kRangeBins>& costs) {
-  const std::uint8_t* __restrict nearest = plan.nearest.data() + bin;
-  const std::uint8_t* __restrict farthest = plan.farthest.data() + bin;
-  std::uint8_t* __restrict sum = costs.data();
-  const std::uint8_t shortest = scan.shortest[bin];
-  const std::uint8_t longest = scan.longest[bin];
-  for (std::size_t s = 0; s < kRangeBins; ++s) {
-    const std::uint8_t far = farthest[s] > shortest ? farthest[s] : shortest;
-    const std::uint8_t near = nearest[s] > longest ? nearest[s] : longest;
-    const auto longer = static_cast<std::uint8_t>(far - farthest[s]);
-    const auto shorter = static_cast<std::uint8_t>(near - longest);
-    const std::uint8_t against_longer = longer < caps.longer ? longer : caps.longer;
-    const std::uint8_t against_shorter = shorter < caps.shorter ? shorter : caps.shorter;
-    sum[s] = static_cast<std::uint8_t>(sum[s] + against_longer + against_shorter);
-  }
-}
-
-Caps caps_of(const RelocationOptions& options) {
-  const auto byte = [](double value) {
-    return static_cast<std::uint8_t>(std::clamp(value, 0.0, 15.0));
-  };
-  return {byte(options.shorter_cap), byte(options.longer_cap)};
-}
-
-using ShiftCosts = std::array<std::uint16_t, kRangeBins>;
-
-/// What the bins say against a place at its best heading.
-ADIT_WIDE std::uint8_t least_cost(const RangeBands& bands, const ScanCodes& scan,
-                                  const std::vector<std::size_t>& bins, Caps caps) {
-  const DoubledBands plan(bands, scan.farthest);
-  std::array<std::uint8_t, kRangeBins> costs{};
-  for (const std::size_t b : bins) add_bin(plan, b, scan, caps, costs);
-  std::uint8_t least = costs[0];
-  for (const std::uint8_t cost : costs) least = least < cost ? least : cost;
-  return least;
-}
-
-/// What all bins say against each heading of a place.
-ADIT_WIDE void compare_all(const RangeBands& bands, const ScanCodes& scan, Caps caps,
-                           ShiftCosts& sums) {
-  const DoubledBands plan(bands, scan.farthest);
-  sums.fill(0);
-  for (std::size_t first = 0; first < kRangeBins; first += kMostFirstBins) {
-    std::array<std::uint8_t, kRangeBins> costs{};
-    for (std::size_t b = first; b < first + kMostFirstBins; ++b) {
-      if (scan.seen[b]) add_bin(plan, b, scan, caps, costs);
-    }
-    for (std::size_t s = 0; s < kRangeBins; ++s) {
-      sums[s] = static_cast<std::uint16_t>(sums[s] + costs[s]);
-    }
-  }
-}
-
-using BlockCosts = std::array<std::uint8_t, PlaceIndex::kBlock>;
-
-/// What a scan's sorted ranges say against the places of a block.
-ADIT_WIDE void rate_block(const PlaceIndex::SortedRanges& block,
-                          std::span<const std::uint8_t> sorted, std::uint8_t in_sight,
-                          BlockCosts& costs) {
-  constexpr std::size_t kStep = kRangeBins / PlaceIndex::kRanks;
-  // What stands in the way makes ranges shorter, nothing makes them longer. Sixteen times both fit
-  // a byte.
-  constexpr std::uint8_t kLongerCap = 10;
-  constexpr std::uint8_t kShorterCap = 5;
-  costs.fill(0);
-  for (std::size_t rank = 0; rank * kStep < sorted.size(); ++rank) {
-    const std::uint8_t longest = sorted[sorted.size() - 1 - rank * kStep];
-    const std::uint8_t shortest = sorted[rank * kStep];
-    const std::uint8_t* __restrict far = block.longest[rank].data();
-    const std::uint8_t* __restrict near = block.shortest[rank].data();
-    for (std::size_t i = 0; i < PlaceIndex::kBlock; ++i) {
-      const std::uint8_t reach = far[i] < in_sight ? far[i] : in_sight;
-      const std::uint8_t front = near[i] < in_sight ? near[i] : in_sight;
-      const auto longer = static_cast<std::uint8_t>((longest > reach ? longest : reach) - reach);
-      const auto shorter =
-          static_cast<std::uint8_t>((front > shortest ? front : shortest) - shortest);
-      costs[i] = static_cast<std::uint8_t>(costs[i] + (longer < kLongerCap ? longer : kLongerCap) +
-                                           (shorter < kShorterCap ? shorter : kShorterCap));
-    }
-  }
-}
-
-/// A heading of a place at which less speaks against it than at those beside it, in one number that
-/// sorts by cost, place and heading.
-struct Minimum {
-  std::uint16_t cost = 0;
-  std::uint32_t place = 0;
-  std::uint8_t shift = 0;  // bins
-  std::uint8_t part = 0;   // of a bin, from -1/2 on, in 255ths
-
-  std::uint64_t key() const {
-    return std::uint64_t{cost} << 48 | std::uint64_t{place} << 16 | std::uint64_t{shift} << 8 |
-           part;
-  }
-  static Minimum of(std::uint64_t key) {
-    return {static_cast<std::uint16_t>(key >> 48), static_cast<std::uint32_t>(key >> 16),
-            static_cast<std::uint8_t>(key >> 8), static_cast<std::uint8_t>(key)};
-  }
-};
-
-// No sum of costs is higher: all bins at the largest cap both ways.
-constexpr std::size_t kMostCost = kRangeBins * 30 + 1;
 
 bool scores_more(const PlaceMatch& a, const PlaceMatch& b) {
   const Pose2& p = a.map_from_laser;
   const Pose2& q = b.map_from_laser;
   return std::tie(b.score, p.y, p.x, p.theta) < std::tie(a.score, q.y, q.x, q.theta);
-}
-
-/// Numbers that were put in.
-class CellSet {
- public:
-  CellSet(std::vector<std::uint64_t>& slots, std::size_t most) : slots_(slots) {
-    slots_.assign(std::bit_ceil(2 * most + 2), kFree);
-  }
-  /// False if it is in already.
-  bool insert(std::uint64_t cell) {
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t slot = (cell * 0x9E3779B97F4A7C15u >> 20) & mask;
-    while (slots_[slot] != kFree) {
-      if (slots_[slot] == cell) return false;
-      slot = (slot + 1) & mask;
-    }
-    slots_[slot] = cell;
-    return true;
-  }
-
- private:
-  static constexpr std::uint64_t kFree = ~std::uint64_t{0};
-  std::vector<std::uint64_t>& slots_;
-};
-
-/// A square of the plan and a sector of two bins.
-std::uint64_t cell_of(const Pose2& pose, double cell_m) {
-  const auto whole = [](double value) {
-    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(value)));
-  };
-  constexpr std::uint64_t kMask = (std::uint64_t{1} << 28) - 1;
-  const std::uint64_t sector = whole((pose.theta + kPi) / (2.0 * kRangeBinWidth));
-  return (sector & 63) << 56 | (whole(pose.x / cell_m) & kMask) << 28 |
-         (whole(pose.y / cell_m) & kMask);
 }
 
 // Matches that were moved to within this of each other are one (m, rad).
@@ -198,162 +23,47 @@ std::span<const PlaceMatch> PlaceSearch::find(const PlaceIndex& index, const Las
                                               const ScannerModel& scanner,
                                               const std::optional<SearchArea>& area,
                                               const RelocationOptions& options) {
-  const auto count = [](int value) { return static_cast<std::size_t>(std::max(1, value)); };
   found_.clear();
   matches_.clear();
-  const ScanCodes codes = code_scan(scan, scanner, options.slack_ratio * index.pitch_m());
-  if (index.empty() || codes.bins_seen == 0) return found_;
-  rate_sorted(index, codes, area);
-  const auto all = static_cast<double>(places_.size());
-  const auto part = [&](double share, int fewest) {
-    return std::max(static_cast<std::size_t>(std::max(0.0, share) * all), count(fewest));
-  };
-  keep_places(part(options.rated_share, options.fewest_rated));
-  choose_bins(codes, std::min(kMostFirstBins, count(options.first_bins)));
-  rate_headings(index, codes, options);
-  keep_places(part(options.compared_share, options.compared));
-  compare(index, codes, options);
-  thin_out(index, part(options.moved_share, options.moved), 2.0 * index.pitch_m());
-  const auto per_step =
-      static_cast<float>(options.agreement_per_step / static_cast<double>(codes.bins_seen));
-  const auto take = [&](PlaceMatch& match, const QuickFit::Result& moved) {
-    match.map_from_laser = moved.map_from_laser;
-    match.agreement = moved.agreement;
-    match.score = moved.agreement - per_step * static_cast<float>(match.cost);
-  };
-  quick_fit_.set_scan(scan, scanner, count(options.first_beams));
-  for (PlaceMatch& match : matches_) {
-    take(match, quick_fit_.approach(index.walls(), match.map_from_laser));
-  }
-  keep_best(part(options.moved_again_share, options.moved_again));
-  quick_fit_.set_scan(scan, scanner, count(options.quick_beams));
-  for (PlaceMatch& match : matches_) {
-    take(match, quick_fit_.settle(index.walls(), match.map_from_laser));
-  }
-  choose(count(options.fewest_candidates), count(options.candidates),
+  quick_fit_.set_scan(scan, scanner, count_of(options.first_beams));
+  approach(index.walls(), view_search_.find(index, scan, scanner, area, options),
+           part_of(index.size(), options.moved_again_share, options.moved_again));
+  const std::size_t corners = index.corners().size();
+  const std::size_t most = part_of(corners, options.corners_moved_share, options.corners_moved);
+  approach(index.walls(), corner_search_.find(index, scan, scanner, area, most, options.corners),
+           part_of(corners, options.corners_moved_again_share, options.corners_moved_again));
+  quick_fit_.set_scan(scan, scanner, count_of(options.quick_beams));
+  settle(index.walls(), static_cast<float>(options.agreement_per_through));
+  choose(count_of(options.fewest_candidates), count_of(options.candidates),
          static_cast<float>(options.score_slack));
   return found_;
 }
 
-/// What the ranges say against each place, turned as it may be: sorted by length, the scan's must
-/// not be longer than the place's, nor shorter.
-void PlaceSearch::rate_sorted(const PlaceIndex& index, const ScanCodes& scan,
-                              const std::optional<SearchArea>& area) {
-  std::vector<std::uint8_t> sorted;
-  for (std::size_t b = 0; b < kRangeBins; ++b) {
-    if (scan.seen[b]) sorted.push_back(scan.codes[b]);
+/// Moves poses towards the walls and takes the best of them, so many.
+void PlaceSearch::approach(const WallField& walls, std::span<const PlaceMatch> matches,
+                           std::size_t most) {
+  approached_.assign(matches.begin(), matches.end());
+  for (PlaceMatch& match : approached_) {
+    const QuickFit::Result moved = quick_fit_.approach(walls, match.map_from_laser);
+    match.map_from_laser = moved.map_from_laser;
+    match.score += moved.agreement;
   }
-  std::sort(sorted.begin(), sorted.end());
-  places_.clear();
-  ratings_.clear();
-  const auto blocks = index.sorted_ranges();
-  BlockCosts costs;
-  for (std::size_t block = 0; block < blocks.size(); ++block) {
-    rate_block(blocks[block], sorted, scan.farthest, costs);
-    const std::size_t first = block * PlaceIndex::kBlock;
-    const std::size_t end = std::min(index.size(), first + PlaceIndex::kBlock);
-    for (std::size_t place = first; place < end; ++place) {
-      if (area && (index.position(place) - area->middle).norm() > area->radius_m) continue;
-      places_.push_back(static_cast<std::uint32_t>(place));
-      ratings_.push_back(costs[place - first]);
-    }
+  if (approached_.size() > most) {
+    std::nth_element(approached_.begin(), approached_.begin() + static_cast<std::ptrdiff_t>(most),
+                     approached_.end(), scores_more);
+    approached_.resize(most);
   }
+  matches_.insert(matches_.end(), approached_.begin(), approached_.end());
 }
 
-/// Keeps about so many places of the lowest ratings, and no fewer.
-void PlaceSearch::keep_places(std::size_t most) {
-  std::array<std::size_t, 256> counts{};
-  for (const std::uint8_t rating : ratings_) ++counts[rating];
-  std::size_t sum = 0;
-  std::size_t bound = 0;
-  while (bound < 255 && (sum += counts[bound]) < most) ++bound;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    if (ratings_[i] <= bound) places_[kept++] = places_[i];
+/// Moves what was taken all the way. What returns say from behind walls weighs against the rest.
+void PlaceSearch::settle(const WallField& walls, float per_through) {
+  for (PlaceMatch& match : matches_) {
+    const QuickFit::Result moved = quick_fit_.settle(walls, match.map_from_laser);
+    match.map_from_laser = moved.map_from_laser;
+    match.agreement = moved.agreement;
+    match.score = moved.agreement - per_through * quick_fit_.through(walls, moved.map_from_laser);
   }
-  places_.resize(kept);
-}
-
-/// Evenly spread over those that the scanner sees.
-void PlaceSearch::choose_bins(const ScanCodes& scan, std::size_t count) {
-  std::vector<std::size_t> seen;
-  for (std::size_t b = 0; b < kRangeBins; ++b) {
-    if (scan.seen[b]) seen.push_back(b);
-  }
-  bins_.clear();
-  const std::size_t chosen = std::min(count, seen.size());
-  for (std::size_t i = 0; i < chosen; ++i) bins_.push_back(seen[i * seen.size() / chosen]);
-}
-
-/// What the chosen bins say against each place at its best heading.
-void PlaceSearch::rate_headings(const PlaceIndex& index, const ScanCodes& scan,
-                                const RelocationOptions& options) {
-  const Caps caps = caps_of(options);
-  ratings_.clear();
-  for (const std::uint32_t place : places_) {
-    ratings_.push_back(least_cost(index.codes(place), scan, bins_, caps));
-  }
-}
-
-/// Every heading of a place that is better than its neighbours is a minimum.
-void PlaceSearch::compare(const PlaceIndex& index, const ScanCodes& scan,
-                          const RelocationOptions& options) {
-  const Caps caps = caps_of(options);
-  minima_.clear();
-  ShiftCosts sums;
-  for (const std::uint32_t place : places_) {
-    compare_all(index.codes(place), scan, caps, sums);
-    for (std::size_t s = 0; s < kRangeBins; ++s) {
-      const std::uint16_t before = sums[(s + kRangeBins - 1) % kRangeBins];
-      const std::uint16_t after = sums[(s + 1) % kRangeBins];
-      if (!(sums[s] < before && sums[s] <= after)) continue;
-      // To the side of the better neighbour, as far as a parabola has it.
-      const int bend = before + after - 2 * sums[s];
-      const int part = 127 + 127 * (before - after) / std::max(1, bend);
-      const Minimum minimum{sums[s], place, static_cast<std::uint8_t>(s),
-                            static_cast<std::uint8_t>(part)};
-      minima_.push_back(minimum.key());
-    }
-  }
-}
-
-/// Sorts the minima by cost, those of the same cost as they are; no more than about so many of the
-/// cheapest are kept.
-void PlaceSearch::sort_minima(std::size_t most) {
-  std::array<std::uint32_t, kMostCost + 1> begins{};
-  for (const std::uint64_t key : minima_) ++begins[Minimum::of(key).cost + std::size_t{1}];
-  std::size_t bound = 0;
-  while (bound + 1 < kMostCost && begins[bound] < most) {
-    begins[bound + 1] += begins[bound];
-    ++bound;
-  }
-  sorted_.resize(begins[bound]);
-  for (const std::uint64_t key : minima_) {
-    const std::size_t cost = Minimum::of(key).cost;
-    if (cost < bound) sorted_[begins[cost]++] = key;
-  }
-}
-
-/// The cheapest minima become matches, one of each cell and sector.
-void PlaceSearch::thin_out(const PlaceIndex& index, std::size_t most, double cell_m) {
-  sort_minima(8 * most);
-  CellSet taken(taken_, sorted_.size());
-  for (const std::uint64_t key : sorted_) {
-    if (matches_.size() >= most) break;
-    const Minimum minimum = Minimum::of(key);
-    const Vector2d position = index.position(minimum.place);
-    const double part = (minimum.part - 127.0) / 254.0;
-    const double turn = (static_cast<double>(minimum.shift) + part) * kRangeBinWidth;
-    const Pose2 pose{position.x(), position.y(), wrap_angle(turn)};
-    if (taken.insert(cell_of(pose, cell_m))) matches_.push_back({pose, minimum.cost, 0.0F, 0.0F});
-  }
-}
-
-void PlaceSearch::keep_best(std::size_t most) {
-  if (matches_.size() <= most) return;
-  std::nth_element(matches_.begin(), matches_.begin() + static_cast<std::ptrdiff_t>(most),
-                   matches_.end(), scores_more);
-  matches_.resize(most);
 }
 
 /// The best that are left, no farther behind the first than by `slack`. Of those that are one, the

@@ -10,12 +10,15 @@ namespace adit {
 namespace {
 
 // From step to step returns must lie nearer to a wall to count (one sigma, m).
-constexpr std::array<float, 3> kApproach{0.8F, 0.6F, 0.4F};
+constexpr std::array<float, 2> kApproach{0.8F, 0.5F};
 constexpr std::array<float, 3> kSettle{0.35F, 0.3F, 0.25F};
 
 // How far the start may be off, one sigma (m, rad); what the returns leave open stays there.
 constexpr float kStartMetres = 0.5F;
 constexpr float kStartRadians = 0.06F;
+
+// A return is behind a wall from so far on (m).
+constexpr float kBehind = 0.6F;
 
 struct Met {
   float off = 0.0F;  // from the wall (m)
@@ -24,14 +27,12 @@ struct Met {
   bool is_met = false;
 };
 
-inline Met meet(const WallField& field, float x, float y) {
-  const WallField::Line* line = field.near(x, y);
-  if (line == nullptr) return {};
-  const float dx = x - line->x;
-  const float dy = y - line->y;
-  const float along = dx * line->along_x + dy * line->along_y;
-  if (along < -WallField::kBeyondEnd || along > line->length + WallField::kBeyondEnd) return {};
-  return {dy * line->along_x - dx * line->along_y, -line->along_y, line->along_x, true};
+inline Met meet(const WallField::Line& line, float x, float y) {
+  const float dx = x - line.x;
+  const float dy = y - line.y;
+  const float along = dx * line.along_x + dy * line.along_y;
+  if (along < -WallField::kBeyondEnd || along > line.length + WallField::kBeyondEnd) return {};
+  return {dy * line.along_x - dx * line.along_y, -line.along_y, line.along_x, true};
 }
 
 /// Falls from one at the wall to none far from it.
@@ -80,7 +81,9 @@ QuickFit::Result QuickFit::fit(const WallField& field, const Pose2& map_from_las
     for (const Point& point : points_) {
       const float rx = c * point.x - s * point.y;
       const float ry = s * point.x + c * point.y;
-      const Met met = meet(field, x0 + rx, y0 + ry);
+      const float x = x0 + rx;
+      const float y = y0 + ry;
+      const Met met = meet(field.line(field.nearest(x, y)), x, y);
       if (!met.is_met) continue;
       const float weight = weight_of(met.off, sigma);
       const float turn = met.normal_y * rx - met.normal_x * ry;
@@ -116,16 +119,48 @@ float QuickFit::agreement(const WallField& field, const Pose2& map_from_laser,
                           float sigma_m) const {
   const Vector2d start = map_from_laser.translation() - field.origin();
   const Vector2d heading = unit_vector(map_from_laser.theta);
+  return agreement(field,
+                   {static_cast<float>(start.x()), static_cast<float>(start.y()),
+                    static_cast<float>(heading.x()), static_cast<float>(heading.y())},
+                   sigma_m);
+}
+
+/// Looks up all walls before it measures: the memory answers many questions at once.
+float QuickFit::agreement(const WallField& field, const Placed& at, float sigma_m) const {
+  constexpr std::size_t kAtOnce = 32;
+  std::array<std::int32_t, kAtOnce> walls;
+  std::array<Point, kAtOnce> placed;
+  float sum = 0.0F;
+  for (std::size_t first = 0; first < points_.size(); first += kAtOnce) {
+    const std::size_t count = std::min(kAtOnce, points_.size() - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Point& point = points_[first + i];
+      placed[i] = {at.x + at.cosine * point.x - at.sine * point.y,
+                   at.y + at.sine * point.x + at.cosine * point.y};
+      walls[i] = field.nearest(placed[i].x, placed[i].y);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const Met met = meet(field.line(walls[i]), placed[i].x, placed[i].y);
+      sum += met.is_met ? weight_of(met.off, sigma_m) : 0.0F;
+    }
+  }
+  return points_.empty() ? 0.0F : sum / static_cast<float>(points_.size());
+}
+
+float QuickFit::through(const WallField& field, const Pose2& map_from_laser) const {
+  const Vector2d start = map_from_laser.translation() - field.origin();
+  const Vector2d heading = unit_vector(map_from_laser.theta);
   const auto c = static_cast<float>(heading.x());
   const auto s = static_cast<float>(heading.y());
   const auto x0 = static_cast<float>(start.x());
   const auto y0 = static_cast<float>(start.y());
-  float sum = 0.0F;
+  int count = 0;
   for (const Point& point : points_) {
-    const Met met = meet(field, x0 + c * point.x - s * point.y, y0 + s * point.x + c * point.y);
-    if (met.is_met) sum += weight_of(met.off, sigma_m);
+    const float x = x0 + c * point.x - s * point.y;
+    const float y = y0 + s * point.x + c * point.y;
+    count += field.is_between(x0, y0, x, y, kBehind);
   }
-  return points_.empty() ? 0.0F : sum / static_cast<float>(points_.size());
+  return points_.empty() ? 0.0F : static_cast<float>(count) / static_cast<float>(points_.size());
 }
 
 }  // namespace adit

@@ -29,6 +29,21 @@ class QuickFit {
   /// Some more, from one that is nearly there.
   Result settle(const WallField& field, const Pose2& map_from_laser) const;
 
+  /// The share of the returns before which a wall stands.
+  float through(const WallField& field, const Pose2& map_from_laser) const;
+
+  /// The share of the returns that lie at a wall, each by how near it is (one sigma, m).
+  float agreement(const WallField& field, const Pose2& map_from_laser, float sigma_m) const;
+
+  /// A pose relative to the field's origin (m), with the cosine and sine of its heading.
+  struct Placed {
+    float x = 0.0F;
+    float y = 0.0F;
+    float cosine = 1.0F;
+    float sine = 0.0F;
+  };
+  float agreement(const WallField& field, const Placed& at, float sigma_m) const;
+
  private:
   struct Point {
     float x = 0.0F;  // laser axes (m)
@@ -38,8 +53,6 @@ class QuickFit {
   /// What is near to where: returns must lie so near to a wall to count (one sigma, m).
   Result fit(const WallField& field, const Pose2& map_from_laser,
              std::span<const float> sigmas) const;
-  float agreement(const WallField& field, const Pose2& map_from_laser, float sigma_m) const;
-
   std::vector<Point> points_;
 };
 

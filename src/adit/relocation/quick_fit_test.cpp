@@ -59,6 +59,15 @@ TEST(QuickFit, AgreesLessWhereTheScanWasNotTaken) {
   EXPECT_LT(quick_fit.settle(field, {11.0, 5.0, 2.0}).agreement, 0.8F);
 }
 
+TEST(QuickFit, SeesThroughWallsOnlyWhereTheScanWasNotTaken) {
+  const LineMap map = room();
+  const WallField field(map);
+  QuickFit quick_fit;
+  quick_fit.set_scan(scan_from(map, {6.0, 4.0, 0.5}), scanner(), 120);
+  EXPECT_EQ(quick_fit.through(field, {6.0, 4.0, 0.5}), 0.0F);
+  EXPECT_GT(quick_fit.through(field, {12.0, 4.0, 0.5}), 0.1F);
+}
+
 TEST(QuickFit, StaysWhereThereIsNothingToGoBy) {
   const LineMap map = room();
   const WallField field(map);

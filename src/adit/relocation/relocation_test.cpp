@@ -177,6 +177,19 @@ TEST(Relocator, FindsPosesInAnIrregularPlan) {
   }
 }
 
+TEST(Relocator, FindsPosesByCornersInAPlanTooLargeForPlaces) {
+  const LineMap map = LineMap::build(irregular_plan());
+  PlaceIndexOptions options;
+  options.most_places = 10.0;
+  const PlaceIndex index = PlaceIndex::build(map, options);
+  ASSERT_TRUE(index.empty());
+  for (const Pose2& truth : {Pose2{20.5, 18.0, 0.7}, Pose2{2.5, 12.0, -2.0}}) {
+    const RelocationResult result = locate(map, index, scan_from(map, truth));
+    ASSERT_FALSE(result.poses.empty());
+    EXPECT_TRUE(is_at(result.poses.front().pose, truth, 0.1, radians(1.0)));
+  }
+}
+
 TEST(Relocator, FindsThePoseBesideClutter) {
   const LineMap map = LineMap::build(irregular_plan());
   const PlaceIndex index = PlaceIndex::build(map);

@@ -19,8 +19,8 @@ constexpr double kFittedDoubt = 0.02;
 // One that was fitted with few beams, once, by this (m).
 constexpr double kCoarseDoubt = 0.08;
 
-// Before poses are fitted with all points their likelihoods differ by so many times more.
-constexpr double kUnfittedGaps = 1.5;
+// So many poses elsewhere are fitted whatever their likelihood.
+constexpr int kRivals = 4;
 
 /// Every so many beams of a scan.
 void thin(const LaserScan& scan, LaserScan& out) {
@@ -56,6 +56,18 @@ bool is_near(const Pose2& a, const Pose2& b, double metres, double radians) {
   return apart.head<2>().norm() <= metres && std::abs(apart.z()) <= radians;
 }
 
+/// The same search with more of everything that thins out the fits.
+RelocationOptions thorough(RelocationOptions options) {
+  options.fewest_candidates *= 2;
+  options.candidates *= 2;
+  options.score_slack *= 2.0;
+  options.unfitted_gap *= 3.0;
+  options.rated_again *= 3;
+  options.fitted_again *= 3;
+  options.refined *= 3;
+  return options;
+}
+
 /// The search's basin: how far a fit may be from where it began.
 Matrix3d basin(double metres, double radians) {
   return Vector3d(metres, metres, radians).cwiseAbs2().asDiagonal();
@@ -68,9 +80,18 @@ const RelocationResult& Relocator::locate(const RelocationQuery& query,
                                           const LikelihoodOptions& likelihood,
                                           const RefinementOptions& refinement,
                                           const StatusOptions& status) {
-  result_.poses.clear();
-  result_.verdict = Status::lost;
   refinement_ = refinement;
+  result_.verdict = look(query, options, likelihood, status);
+  const bool is_sure = result_.verdict == Status::ok || result_.verdict == Status::degraded;
+  if (is_sure && result_.gap < options.second_look_gap) {
+    result_.verdict = look(query, thorough(options), likelihood, status);
+  }
+  return result_;
+}
+
+Status Relocator::look(const RelocationQuery& query, const RelocationOptions& options,
+                       const LikelihoodOptions& likelihood, const StatusOptions& status) {
+  result_.poses.clear();
   result_.map_error = query.map_error;
   likelihood_.set_walls(index_.walls());
   likelihood_.set_scan(query.scan, query.scanner, query.map_error, likelihood);
@@ -80,8 +101,7 @@ const RelocationResult& Relocator::locate(const RelocationQuery& query,
   result_.gap = gap_to_others(options);
   weigh(options);
   examine_best(query, likelihood);
-  result_.verdict = verdict(query.map_error, options, status);
-  return result_;
+  return verdict(query.map_error, options, status);
 }
 
 double Relocator::likelihood_at(const RelocationQuery& query, const Pose2& map_from_vehicle,
@@ -138,12 +158,28 @@ void Relocator::fit_coarsely(const RelocationQuery& query, const RelocationOptio
   keep_best(hypotheses_, count(options.rated_again), options);
   rate_by_likeliest_error(query, kCoarseDoubt, options);
   keep_best(hypotheses_, count(options.fitted_again), options);
-  const RefinementInput again{map_, thinned_, query.scanner, result_.map_error, query.motion};
-  for (Hypothesis& hypothesis : hypotheses_) {
-    hypothesis.pose = fit(again, hypothesis.pose, options).pose;
-  }
+  drop_hopeless(options);
+  narrow_down(query, options);
   rate_by_likeliest_error(query, kFittedDoubt, options);
   keep_best(hypotheses_, count(options.refined), options);
+}
+
+/// Fits with ever smaller errors of the plan, down to the likeliest: at once with that, a fit that
+/// is a little off would take the walls for something else that stands near them.
+void Relocator::narrow_down(const RelocationQuery& query, const RelocationOptions& options) {
+  const double last = error_ratio(result_.map_error, query.map_error);
+  for (double ratio = 0.5; ratio > 1.01 * last; ratio *= 0.5) {
+    fit_thinned(query, scaled(query.map_error, ratio), options);
+  }
+  fit_thinned(query, result_.map_error, options);
+}
+
+void Relocator::fit_thinned(const RelocationQuery& query, const MapError& error,
+                            const RelocationOptions& options) {
+  const RefinementInput input{map_, thinned_, query.scanner, error, query.motion};
+  for (Hypothesis& hypothesis : hypotheses_) {
+    hypothesis.pose = fit(input, hypothesis.pose, options).pose;
+  }
 }
 
 /// How likely each hypothesis is where the plan errs as much as suits it best; at the best of them,
@@ -166,12 +202,18 @@ void Relocator::rate_by_likeliest_error(const RelocationQuery& query, double dou
   }
 }
 
-/// Those that are too unlikely beside the best to become so by another fit.
-void Relocator::drop_hopeless(const RelocationOptions& options, double gaps) {
-  double best = -std::numeric_limits<double>::infinity();
-  for (const Hypothesis& hypothesis : hypotheses_) best = std::max(best, hypothesis.log_likelihood);
-  const double least = best - gaps * options.hopeless_gap / likelihood_.share_of_news();
-  std::erase_if(hypotheses_, [&](const Hypothesis& h) { return h.log_likelihood < least; });
+/// Those that are too unlikely beside the best to become so by another fit; of those elsewhere a
+/// few stay, for how unlikely they are counts. They come sorted.
+void Relocator::drop_hopeless(const RelocationOptions& options) {
+  if (hypotheses_.empty()) return;
+  const Hypothesis best = hypotheses_.front();
+  const double least = best.log_likelihood - options.unfitted_gap;
+  int rivals = 0;
+  std::erase_if(hypotheses_, [&](const Hypothesis& h) {
+    const bool is_rival = !is_near(best.pose, h.pose, options.apart_m, options.apart_rad);
+    rivals += is_rival;
+    return h.log_likelihood < least && !(is_rival && rivals <= kRivals);
+  });
 }
 
 /// The poses that have a chance, fitted with all points. How well the plan fits the scan at the
@@ -179,7 +221,7 @@ void Relocator::drop_hopeless(const RelocationOptions& options, double gaps) {
 /// error.
 void Relocator::fit_all_points(const RelocationQuery& query, const RelocationOptions& options) {
   likelihood_.set_map_error(result_.map_error);
-  drop_hopeless(options, kUnfittedGaps);
+  drop_hopeless(options);
   take_fits(query, result_.map_error, options);
   if (result_.poses.empty()) return;
   hypotheses_.clear();

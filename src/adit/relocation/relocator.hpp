@@ -51,7 +51,8 @@ struct RelocationQuery {
 ///
 /// The index chooses places whose view resembles the scan (a scan shorter than the plan may be
 /// something that stands there, one that is longer went through rock); likelihood and fit of all
-/// points decide. Deterministic. Map and index must outlive it.
+/// points decide. Where others come near the best, a second search that thins out less must say the
+/// same. Deterministic. Map and index must outlive it.
 class Relocator {
  public:
   Relocator(const LineMap& map, const PlaceIndex& index) : map_(map), index_(index) {}
@@ -68,9 +69,14 @@ class Relocator {
     double log_likelihood = 0.0;
   };
 
+  Status look(const RelocationQuery& query, const RelocationOptions& options,
+              const LikelihoodOptions& likelihood, const StatusOptions& status);
   void rate_candidates(const RelocationQuery& query, const RelocationOptions& options);
   void fit_coarsely(const RelocationQuery& query, const RelocationOptions& options);
-  void drop_hopeless(const RelocationOptions& options, double gaps);
+  void narrow_down(const RelocationQuery& query, const RelocationOptions& options);
+  void fit_thinned(const RelocationQuery& query, const MapError& error,
+                   const RelocationOptions& options);
+  void drop_hopeless(const RelocationOptions& options);
   void rate_by_likeliest_error(const RelocationQuery& query, double doubt_m,
                                const RelocationOptions& options);
   void fit_all_points(const RelocationQuery& query, const RelocationOptions& options);

@@ -49,6 +49,7 @@ void ScanLikelihood::set_scan(const LaserScan& scan, const ScannerModel& scanner
     const bool has_return = range > 0.0 && range >= scanner.min_range_m && range < reach_;
     beams_.push_back({scan.bearing(i), has_return ? range : reach_, has_return});
   }
+  stated_noise_ = error.sigma_m() * error.sigma_m();
   set_map_error(error);
   const double away = options.leave_ratio;
   const double back = options.back_ratio;
@@ -64,6 +65,13 @@ void ScanLikelihood::set_map_error(const MapError& error) {
   map_noise_ = error.sigma_m() * error.sigma_m();
   offset_noise_ = error.offset_sigma_m * error.offset_sigma_m;
   length_m_ = std::max(1e-3, error.length_m);
+}
+
+double ScanLikelihood::share_of_news() const {
+  const double trusted = options_.trusted_error_ratio * options_.trusted_error_ratio;
+  const double more = std::sqrt(trusted * stated_noise_ / std::max(1e-12, map_noise_));
+  return std::clamp(options_.trust * more, options_.trust,
+                    std::max(options_.trust, options_.trust_most));
 }
 
 /// The ray among those of `look_around` that a beam follows.

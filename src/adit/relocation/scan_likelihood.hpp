@@ -59,8 +59,8 @@ class ScanLikelihood {
   /// The same scan against a map that errs by so much.
   void set_map_error(const MapError& error);
 
-  /// How much of what the beams say is news; see the option `trust`.
-  double share_of_news() const { return options_.trust; }
+  /// How much of what the beams say is news: the more, the less the plan errs of what is stated.
+  double share_of_news() const;
 
  private:
   struct Beam {
@@ -96,6 +96,7 @@ class ScanLikelihood {
               Offset& offset) const;
 
   LikelihoodOptions options_;
+  double stated_noise_ = 0.0;  // variance of the map's error as it was stated (m²)
   std::vector<Beam> beams_;
   bool evenly_spaced_ = true;
   double first_bearing_ = 0.0;

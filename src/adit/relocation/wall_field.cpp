@@ -24,6 +24,8 @@ float squared_distance(const WallField::Line& line, float x, float y) {
 }  // namespace
 
 WallField::WallField(const LineMap& map) {
+  constexpr float kNowhere = -1e9F;  // length of a wall that nothing lies on
+  lines_.push_back({0.0F, 0.0F, 1.0F, 0.0F, kNowhere});
   if (map.empty()) return;
   const Vector2d size = map.bounds().size() + Vector2d::Constant(4.0 * kReach);
   const Vector2d squares = kPerMetre * size;
@@ -33,7 +35,8 @@ WallField::WallField(const LineMap& map) {
   height_ = static_cast<float>(size.y());
   tile_columns_ = (static_cast<std::int32_t>(squares.x()) >> kTileBits) + 1;
   const std::int32_t tile_rows = (static_cast<std::int32_t>(squares.y()) >> kTileBits) + 1;
-  tiles_.assign(static_cast<std::size_t>(tile_rows) * static_cast<std::size_t>(tile_columns_), -1);
+  tiles_.assign(static_cast<std::size_t>(tile_rows) * static_cast<std::size_t>(tile_columns_), 0);
+  cells_.emplace_back().fill(kNone);
   for (const Wall& wall : map.walls()) {
     const Segment& segment = wall.segment;
     const Vector2d a = segment.a - origin_;
@@ -76,27 +79,57 @@ void WallField::offer(std::int32_t column, std::int32_t row, std::int32_t line) 
   const float squared = squared_distance(lines_[static_cast<std::size_t>(line)], x, y);
   if (squared > kReach * kReach) return;
   std::int32_t& tile = tiles_[tile_of(column, row)];
-  if (tile < 0) {
+  if (tile == 0) {
     tile = static_cast<std::int32_t>(cells_.size());
-    cells_.emplace_back().fill(-1);
+    cells_.emplace_back().fill(kNone);
   }
   std::int32_t& nearest = cells_[static_cast<std::size_t>(tile)][cell_of(column, row)];
   const bool is_nearer =
-      nearest < 0 || squared < squared_distance(lines_[static_cast<std::size_t>(nearest)], x, y);
+      nearest == kNone ||
+      squared < squared_distance(lines_[static_cast<std::size_t>(nearest)], x, y);
   if (is_nearer) nearest = line;
 }
 
 std::optional<WallField::Meeting> WallField::meet(const Vector2d& point) const {
   const Vector2d here = point - origin_;
-  const Line* line = near(static_cast<float>(here.x()), static_cast<float>(here.y()));
-  if (line == nullptr) return std::nullopt;
+  const std::int32_t number = nearest(static_cast<float>(here.x()), static_cast<float>(here.y()));
+  if (number == kNone) return std::nullopt;
+  const Line* line = &lines_[static_cast<std::size_t>(number)];
   const Vector2d along(static_cast<double>(line->along_x), static_cast<double>(line->along_y));
   const Vector2d from = here - Vector2d(static_cast<double>(line->x), static_cast<double>(line->y));
   const double way = along.dot(from);
   constexpr double kSlack = kBeyondEnd;
   if (way < -kSlack || way > static_cast<double>(line->length) + kSlack) return std::nullopt;
-  return Meeting{static_cast<int>(line - lines_.data()), cross(along, from),
-                 Vector2d(-along.y(), along.x())};
+  return Meeting{number - 1, cross(along, from), Vector2d(-along.y(), along.x())};
+}
+
+bool WallField::is_between(float from_x, float from_y, float to_x, float to_y,
+                           float behind_m) const {
+  constexpr float kStep = 1.0F / kPerMetre;
+  constexpr float kFreeStep = 1.0F;  // where no wall is near
+  const float dx = to_x - from_x;
+  const float dy = to_y - from_y;
+  const float range = std::sqrt(dx * dx + dy * dy);
+  if (!(range > behind_m)) return false;
+  const float east = dx / range;
+  const float north = dy / range;
+  std::int32_t before = kNone;
+  for (float way = 0.0F; way < range;) {
+    const std::int32_t number = nearest(from_x + way * east, from_y + way * north);
+    way += number == kNone ? kFreeStep : kStep;
+    if (number == kNone || number == before) continue;
+    before = number;
+    const Line* line = &lines_[static_cast<std::size_t>(number)];
+    // How far to the wall's left both points lie.
+    const float start = (from_y - line->y) * line->along_x - (from_x - line->x) * line->along_y;
+    const float end = (to_y - line->y) * line->along_x - (to_x - line->x) * line->along_y;
+    if (start * end >= 0.0F || std::abs(end) < behind_m) continue;
+    const float met = range * start / (start - end);
+    const float along = (from_x + met * east - line->x) * line->along_x +
+                        (from_y + met * north - line->y) * line->along_y;
+    if (along > 0.0F && along < line->length) return true;
+  }
+  return false;
 }
 
 std::size_t WallField::memory() const {

@@ -32,17 +32,20 @@ class WallField {
 
   const Vector2d& origin() const { return origin_; }
 
-  /// The wall nearest to the middle of the point's square; none where all are farther than about a
-  /// metre and a half. Relative to the origin.
-  const Line* near(float x, float y) const {
-    if (!(x >= 0.0F && y >= 0.0F && x < width_ && y < height_)) return nullptr;
+  /// The number of the wall nearest to the middle of the point's square; `kNone` where all are
+  /// farther than about a metre and a half. Relative to the origin. Without a branch that depends
+  /// on what it finds, so that many points are looked up at once.
+  std::int32_t nearest(float x, float y) const {
+    if (!(x >= 0.0F && y >= 0.0F && x < width_ && y < height_)) return kNone;
     const auto column = static_cast<std::int32_t>(x * kPerMetre);
     const auto row = static_cast<std::int32_t>(y * kPerMetre);
     const std::int32_t tile = tiles_[tile_of(column, row)];
-    if (tile < 0) return nullptr;
-    const std::int32_t line = cells_[static_cast<std::size_t>(tile)][cell_of(column, row)];
-    return line < 0 ? nullptr : &lines_[static_cast<std::size_t>(line)];
+    return cells_[static_cast<std::size_t>(tile)][cell_of(column, row)];
   }
+  static constexpr std::int32_t kNone = 0;
+
+  /// A wall by its number; that of `kNone` is met nowhere.
+  const Line& line(std::int32_t number) const { return lines_[static_cast<std::size_t>(number)]; }
 
   /// A point and the wall nearest to it.
   struct Meeting {
@@ -53,6 +56,10 @@ class WallField {
 
   /// The wall that a point of the map may lie on; none beyond the ends of the nearest one.
   std::optional<Meeting> meet(const Vector2d& point) const;
+
+  /// Whether a wall stands in the way from one point to another, relative to the origin, and the
+  /// latter lies at least so far behind it. Walls nearest to no square are overlooked.
+  bool is_between(float from_x, float from_y, float to_x, float to_y, float behind_m) const;
 
   /// Bytes that it holds.
   std::size_t memory() const;
@@ -77,9 +84,9 @@ class WallField {
   float width_ = 0.0F;  // m
   float height_ = 0.0F;
   std::int32_t tile_columns_ = 0;
-  std::vector<std::int32_t> tiles_;  // -1 where no wall is near
+  std::vector<std::int32_t> tiles_;  // the first where no wall is near
   std::vector<Tile> cells_;
-  std::vector<Line> lines_;
+  std::vector<Line> lines_;  // one after those of the map
 };
 
 }  // namespace adit

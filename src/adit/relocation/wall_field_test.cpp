@@ -39,6 +39,21 @@ TEST(WallField, MeetsNoWallBeyondItsEnd) {
   EXPECT_FALSE(field.meet({140.6, 50.0}));
 }
 
+TEST(WallField, KnowsWhatLiesBehindAWall) {
+  const WallField field(LineMap::build(drift()));
+  const auto is_between = [&](const Vector2d& from, const Vector2d& to) {
+    const Vector2d a = from - field.origin();
+    const Vector2d b = to - field.origin();
+    return field.is_between(static_cast<float>(a.x()), static_cast<float>(a.y()),
+                            static_cast<float>(b.x()), static_cast<float>(b.y()), 0.5F);
+  };
+  EXPECT_TRUE(is_between({120.0, 53.0}, {121.0, 48.0}));
+  EXPECT_FALSE(is_between({120.0, 53.0}, {120.0, 49.8})) << "not far enough behind";
+  EXPECT_FALSE(is_between({105.0, 53.0}, {135.0, 53.5})) << "along the drift";
+  EXPECT_FALSE(is_between({142.0, 53.0}, {142.0, 45.0})) << "beyond its end";
+  EXPECT_FALSE(is_between({-1e6, 53.0}, {-1e6, 45.0})) << "off the plan";
+}
+
 TEST(WallField, CoversNothingOfAPlanWithWallsAstray) {
   std::vector<Segment> walls = drift();
   walls.push_back({{4e7, 4e7}, {4e7 + 10.0, 4e7}});
