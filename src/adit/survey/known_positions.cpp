@@ -193,7 +193,8 @@ class StationSurvey {
     }
   }
 
-  /// The scan's heading, or the one the other way or its station's where walls speak for that.
+  /// The scan's heading, or the one the other way or its station's where walls speak for that; none
+  /// other where one was given.
   double likelier_heading(const LineMap& map, std::size_t scan) {
     const SurveyedScan& found = survey_.scans[scan];
     const auto& station = survey_.stations[static_cast<std::size_t>(found.station)];
@@ -203,6 +204,7 @@ class StationSurvey {
       return fit_to_walls(map, given_[scan].scan, pose);
     };
     double best = found.map_from_vehicle.theta;
+    if (given_[scan].heading) return best;
     double most = score(best) + kClearlyBetter;
     for (const double other : {wrap_angle(best + kPi), station.heading.heading_rad}) {
       const double fits = score(other);

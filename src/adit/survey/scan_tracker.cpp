@@ -128,7 +128,7 @@ void ScanTracker::learn_excess(const Keyframe& frame) {
   constexpr double kMost = 25.0;
   const Matrix2d held = frame.tracked_information.topLeftCorner<2, 2>();
   const double trace = held.trace();
-  if (held.determinant() < kWellHeld * trace * trace) return;  // nothing to compare with
+  if (!(held.determinant() > kWellHeld * trace * trace)) return;  // nothing to compare with
   const Vector3d error = difference(frame.odometry, frame.previous_from_this);
   const Matrix3d covariance =
       frame.odometry_covariance / odometry_excess_ + kLeastVariance * Matrix3d::Identity();
