@@ -62,6 +62,9 @@ int run_map_aliases(const AliasesArguments& arguments) {
   const LineMap map = LineMap::build(inputs->plan.segments, inputs->configuration.values.map);
   const auto index = index_of(map, {settings.places, threads, {}}, "");
   if (!index) return report(index.error());
+  if ((*index)->pitch_m() > settings.places.coarsest_pitch_m) {
+    return report({"the plan is too large for places to be laid out in it", arguments.plan});
+  }
   const Openings openings = openings_of(map, **index, arguments.pitch, OpeningsOptions{});
   if (openings.places.empty()) {
     return report({"no opening is wide enough for a machine", arguments.plan});

@@ -51,6 +51,13 @@ Result<void> write_index(const std::string& file, const PlaceIndex& index, const
   return fail(error ? error.message() : "the index cannot be written", file);
 }
 
+/// What an index holds, in words.
+std::string contents_of(const PlaceIndex& index) {
+  const std::string corners = fmt::format("{} corners", index.corners().size());
+  if (index.empty()) return "no places, and " + corners;
+  return fmt::format("{} places, {:.2f} m apart, and {}", index.size(), index.pitch_m(), corners);
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const PlaceIndex>> index_of(const LineMap& map,
@@ -65,8 +72,8 @@ Result<std::shared_ptr<const PlaceIndex>> index_of(const LineMap& map,
   auto index = std::make_shared<const PlaceIndex>(
       is_read ? std::move(**read) : PlaceIndex::build(map, settings.places, settings.threads));
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
-  fmt::print(stderr, "adit: {}index of {} places, {:.2f} m apart, {:.1f} MB, {} in {:.2f} s\n",
-             level.empty() ? "" : "level " + level + ": ", index->size(), index->pitch_m(),
+  fmt::print(stderr, "adit: {}index of {}, {:.1f} MB, {} in {:.2f} s\n",
+             level.empty() ? "" : "level " + level + ": ", contents_of(*index),
              1e-6 * static_cast<double>(index->memory()), is_read ? "read" : "built", seconds);
   if (!file.empty() && !is_read) {
     const auto written = write_index(file, *index, map, settings.places);

@@ -20,7 +20,7 @@ MineAnswer MineSearch::locate(const LaserScan& scan, const std::optional<SweepPr
   const ScannerModel& scanner = settings_.scanner_of(scan);
   const MapError stated = MapErrorEstimator(settings_.map).error();
   MineAnswer answer;
-  MapError map_error = stated;
+  double share_of_news = 1.0;
   double best = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     const RelocationResult& found =
@@ -29,16 +29,16 @@ MineAnswer MineSearch::locate(const LaserScan& scan, const std::optional<SweepPr
     for (const RankedPose& pose : found.poses) answer.poses.push_back({pose, i});
     if (found.poses.empty() || found.poses.front().log_likelihood <= best) continue;
     best = found.poses.front().log_likelihood;
-    map_error = found.map_error;
+    share_of_news = found.share_of_news;
     answer.verdict = found.verdict;
   }
-  if (levels_.size() > 1) weigh(scan, map_error, answer);
+  if (levels_.size() > 1) weigh(share_of_news, answer);
   answer.elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
   return answer;
 }
 
 /// Ranks the poses of all levels together, as each level's were among themselves.
-void MineSearch::weigh(const LaserScan& scan, const MapError& map_error, MineAnswer& answer) {
+void MineSearch::weigh(double share_of_news, MineAnswer& answer) {
   std::vector<LevelPose>& poses = answer.poses;
   if (poses.empty()) return;
   std::stable_sort(poses.begin(), poses.end(), [](const LevelPose& a, const LevelPose& b) {
@@ -46,12 +46,10 @@ void MineSearch::weigh(const LaserScan& scan, const MapError& map_error, MineAns
   });
   poses.resize(
       std::min(poses.size(), static_cast<std::size_t>(std::max(1, settings_.relocation.listed))));
-  likelihood_.set_scan(scan, settings_.scanner_of(scan), map_error, settings_.likelihood);
   const double best = poses.front().ranked.log_likelihood;
   double sum = 0.0;
   for (LevelPose& pose : poses) {
-    pose.ranked.weight =
-        std::exp(likelihood_.share_of_news() * (pose.ranked.log_likelihood - best));
+    pose.ranked.weight = std::exp(share_of_news * (pose.ranked.log_likelihood - best));
     sum += pose.ranked.weight;
   }
   double elsewhere = 0.0;

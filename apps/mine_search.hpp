@@ -35,12 +35,11 @@ class MineSearch {
   MineAnswer locate(const LaserScan& scan, const std::optional<SweepPrior>& motion);
 
  private:
-  void weigh(const LaserScan& scan, const MapError& map_error, MineAnswer& answer);
+  void weigh(double share_of_news, MineAnswer& answer);
 
   const std::vector<MineLevel>& levels_;
   const LocalizerSettings& settings_;
   std::deque<Relocator> relocators_;  // one a level
-  ScanLikelihood likelihood_;
 };
 
 }  // namespace adit

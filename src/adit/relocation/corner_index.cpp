@@ -21,7 +21,7 @@ std::optional<Leaving> leaving(const Segment& wall, const Vector2d& point, doubl
   const double way = along.dot(point - wall.a);
   const bool is_at_start = way < 0.5 * length;
   const double beyond = is_at_start ? -way : way - length;
-  if (beyond > longest_gap_m || beyond < -std::min(0.3, 0.2 * length)) return std::nullopt;
+  if (!(beyond <= longest_gap_m && beyond >= -std::min(0.3, 0.2 * length))) return std::nullopt;
   return Leaving{is_at_start ? along : Vector2d(-along), std::max(0.0, beyond)};
 }
 
@@ -57,9 +57,9 @@ std::optional<Meet> corner_of(const Segment& a, const Segment& b, const CornerLi
   const Vector2d along_b = b.b - b.a;
   const double length_a = along_a.norm();
   const double length_b = along_b.norm();
-  if (std::min(length_a, length_b) < limits.least_arm_m) return std::nullopt;
+  if (!(std::min(length_a, length_b) >= std::max(1e-3, limits.least_arm_m))) return std::nullopt;
   const double turn = cross(along_a, along_b) / (length_a * length_b);
-  if (std::abs(turn) < std::sin(limits.least_turn_rad)) return std::nullopt;
+  if (!(std::abs(turn) >= std::max(1e-3, std::sin(limits.least_turn_rad)))) return std::nullopt;
   const double way = cross(b.a - a.a, along_b) / (turn * length_b);
   const Vector2d point = a.a + way / length_a * along_a;
   const auto away_a = leaving(a, point, limits.longest_gap_m);

@@ -21,19 +21,9 @@ struct Sector {
 
 /// Which walls make a corner.
 struct CornerLimits {
-  double least_arm_m = 1.5;
-  double least_turn_rad = 0.35;
-  double longest_gap_m = 8.0;  ///< that a rounded or chamfered corner leaves on either side
-
-  template <class Self, class Field>
-  static void visit(Self& self, Field&& field) {
-    field("corner_least_arm_m", self.least_arm_m,
-          "walls of a corner are no shorter than this (m) ...");
-    field("corner_least_turn_rad", self.least_turn_rad,
-          "... turn at it by no less than this (rad) ...");
-    field("corner_longest_gap_m", self.longest_gap_m,
-          "... and end no farther from where their lines meet: corners may be rounded (m)");
-  }
+  double least_arm_m = 1.5;      ///< walls of a corner are no shorter ...
+  double least_turn_rad = 0.35;  ///< ... and turn at it by no less
+  double longest_gap_m = 8.0;    ///< that a rounded or chamfered corner leaves on either side
 };
 
 /// Where two walls meet, and which way they leave from there.

@@ -129,11 +129,11 @@ void CornerSearch::rate(const PlaceIndex& index, const std::optional<SearchArea>
 /// The best rated, one of each cell: the corners of one place say the same.
 void CornerSearch::take_best(const PlaceIndex& index, std::size_t most,
                              const CornerSearchOptions& options) {
-  std::array<std::size_t, 257> begins{};  // of each rating, the highest first
-  for (const std::uint8_t rating : ratings_) ++begins[256 - rating];
+  std::array<std::size_t, 257> counts{};  // of each rating, the highest first
+  for (const std::uint8_t rating : ratings_) ++counts[256 - rating];
   std::size_t worst = 255;
   std::size_t asked = 0;
-  while (worst > 0 && (asked += begins[256 - worst]) < 8 * most) --worst;
+  while (worst > 0 && (asked += counts[256 - worst]) < 8 * most) --worst;
   ranked_.clear();
   std::size_t pair = 0;
   for (std::uint32_t s = 0; s < sensed_.size(); ++s) {

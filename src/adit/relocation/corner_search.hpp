@@ -18,7 +18,8 @@ namespace adit {
 /// all matches"); a handful of returns says which deserve a closer look.
 class CornerSearch {
  public:
-  /// About the `most` poses at which most of those returns lie at walls, the best first.
+  /// The poses at which most of those returns lie at walls, no more than so many, in the order of
+  /// the plan's corners.
   std::span<const PlaceMatch> find(const PlaceIndex& index, const LaserScan& scan,
                                    const ScannerModel& scanner,
                                    const std::optional<SearchArea>& area, std::size_t most,

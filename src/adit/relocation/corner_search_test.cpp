@@ -66,7 +66,9 @@ TEST(CornerSearch, LooksOnlyWhereItIsAskedTo) {
   const LaserScan scan = scan_from(map, {1203.0, 4.0, 2.1});
   const SearchArea area{{1403.0, 4.0}, 30.0};
   CornerSearch search;
-  for (const PlaceMatch& match : search.find(index, scan, scanner(), area, 100, {})) {
+  const auto found = search.find(index, scan, scanner(), area, 100, {});
+  EXPECT_FALSE(found.empty());
+  for (const PlaceMatch& match : found) {
     EXPECT_TRUE(area.holds(match.map_from_laser.translation()));
   }
 }

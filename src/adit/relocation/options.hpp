@@ -79,7 +79,7 @@ struct LikelihoodOptions {
 /// How the corners of a scan are taken for those of a plan.
 struct CornerSearchOptions {
   ExtractionOptions extraction;
-  CornerLimits limits{1.0, 0.35, 8.0};
+  CornerLimits limits{1.0, 0.35, 8.0};  ///< of the scan's: walls are seen in part
   double tolerance_rad = 0.2;
   double gap_slack_m = 1.0;
   int fewest = 2;
@@ -92,7 +92,6 @@ struct CornerSearchOptions {
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
-    CornerLimits::visit(self.limits, field);
     field("corner_tolerance_rad", self.tolerance_rad,
           "a corner of the plan opens as wide as one of the scan within this (rad)");
     field("corner_gap_slack_m", self.gap_slack_m,
@@ -192,6 +191,7 @@ struct RelocationOptions {
     field("corners_moved_again", self.corners_moved_again, "but not fewer than this");
     field("agreement_per_through", self.agreement_per_through,
           "a return from behind a wall outweighs so many that lie at walls");
+    CornerSearchOptions::visit(self.corners, field);
     field("first_beams", self.first_beams, "first with so many beams");
     field("quick_beams", self.quick_beams, "then with so many");
     field("slack_ratio", self.slack_ratio,
@@ -200,10 +200,10 @@ struct RelocationOptions {
           "so many of those are fitted with some of the beams ...");
     field("candidates", self.candidates, "... and up to so many ...");
     field("score_slack", self.score_slack,
-          "... that are no worse than the best by this: share of the returns that agree ...");
-    field(
-        "agreement_per_step", self.agreement_per_step,
-        "... where so much agreement makes up for one step of the range code, the bearings' mean");
+          "... that are no worse than the best by this: share of the returns that agree");
+    field("agreement_per_step", self.agreement_per_step,
+          "so much agreement makes up for one step of the range code, the bearings' mean, before "
+          "poses are moved on");
     field("rated_again", self.rated_again,
           "of so many fits the likelihood is looked at, each with the error of the plan that suits "
           "it best");
@@ -222,7 +222,7 @@ struct RelocationOptions {
           "further, "
           "but for the best few");
     field("hopeless_gap", self.hopeless_gap,
-          "a pose less likely than the best by more than this (log) is not fitted with all points");
+          "how much less likely than the best others are (log) counts no further than to this");
     field("least_map_ratio", self.least_map_ratio,
           "the plan may be better than stated, down to this part of the stated error: how much the "
           "scan itself says");
@@ -232,7 +232,7 @@ struct RelocationOptions {
     field("apart_m", self.apart_m, "another pose is one farther than this (m) ...");
     field("apart_rad", self.apart_rad, "... or turned by more than this (rad)");
     field("second_look_gap", self.second_look_gap,
-          "a pose that others come nearer to than this (log) is trusted only after a second search "
+          "a pose that others come nearer to than this (log) is trusted only after a second look "
           "that fits more of them");
     field("sure_gap", self.sure_gap,
           "a pose is sure only where every other one is less likely by this (log) ...");

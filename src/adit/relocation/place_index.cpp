@@ -16,10 +16,14 @@ constexpr std::size_t kRaysPerBin = 8;
 constexpr std::size_t kMargin = 2;
 constexpr std::size_t kRays = kRangeBins * kRaysPerBin;
 
-/// Coarse in a large plan, fine in a small one (m).
-double pitch_for(double area, const PlaceIndexOptions& options) {
+// Looking at more squares than this for places takes minutes.
+constexpr double kMostSquares = 1.5e7;
+
+/// Coarse in a large plan, fine in a small one (m): of so much area inside, within such a box.
+double pitch_for(double area, double box_area, const PlaceIndexOptions& options) {
   const double fine = std::max(options.finest_pitch_m, std::sqrt(area / options.enough_places));
-  return std::max(std::min(options.pitch_m, fine), std::sqrt(area / options.most_places));
+  return std::max({std::min(options.pitch_m, fine), std::sqrt(area / options.most_places),
+                   std::sqrt(box_area / kMostSquares)});
 }
 
 /// Looks around from places.
@@ -105,10 +109,10 @@ PlaceIndex PlaceIndex::build(const LineMap& map, const PlaceIndexOptions& option
   PlaceArrays arrays;
   arrays.pitch_m = options.pitch_m;
   if (map.empty()) return PlaceIndex(map, std::move(arrays));
-  arrays.pitch_m = pitch_for(area_inside(map, options), options);
+  const Vector2d size = map.bounds().size();
+  arrays.pitch_m = pitch_for(area_inside(map, options), size.x() * size.y(), options);
   if (arrays.pitch_m > options.coarsest_pitch_m) return PlaceIndex(map, std::move(arrays));
   const double pitch = arrays.pitch_m;
-  const Vector2d size = map.bounds().size();
   arrays.origin_x = map.bounds().min.x() + 0.5 * pitch;
   arrays.origin_y = map.bounds().min.y() + 0.5 * pitch;
   const auto columns = static_cast<int>(size.x() / pitch) + 1;

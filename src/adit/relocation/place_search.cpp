@@ -23,7 +23,6 @@ std::span<const PlaceMatch> PlaceSearch::find(const PlaceIndex& index, const Las
                                               const ScannerModel& scanner,
                                               const std::optional<SearchArea>& area,
                                               const RelocationOptions& options) {
-  found_.clear();
   matches_.clear();
   quick_fit_.set_scan(scan, scanner, count_of(options.first_beams));
   approach(index.walls(), view_search_.find(index, scan, scanner, area, options),
@@ -34,9 +33,7 @@ std::span<const PlaceMatch> PlaceSearch::find(const PlaceIndex& index, const Las
            part_of(corners, options.corners_moved_again_share, options.corners_moved_again));
   quick_fit_.set_scan(scan, scanner, count_of(options.quick_beams));
   settle(index.walls(), static_cast<float>(options.agreement_per_through));
-  choose(count_of(options.fewest_candidates), count_of(options.candidates),
-         static_cast<float>(options.score_slack));
-  return found_;
+  return choose(options);
 }
 
 /// Moves poses towards the walls and takes the best of them, so many.
@@ -66,9 +63,13 @@ void PlaceSearch::settle(const WallField& walls, float per_through) {
   }
 }
 
-/// The best that are left, no farther behind the first than by `slack`. Of those that are one, the
-/// pose that agrees most with the walls stands for them: what the codes say is of where it began.
-void PlaceSearch::choose(std::size_t fewest, std::size_t most, float slack) {
+/// Those no farther behind the first than by the slack. Of those that are one, the pose that agrees
+/// most with the walls stands for them.
+std::span<const PlaceMatch> PlaceSearch::choose(const RelocationOptions& options) {
+  const std::size_t fewest = count_of(options.fewest_candidates);
+  const std::size_t most = count_of(options.candidates);
+  const auto slack = static_cast<float>(options.score_slack);
+  found_.clear();
   std::sort(matches_.begin(), matches_.end(), scores_more);
   for (const PlaceMatch& match : matches_) {
     const auto known = std::find_if(found_.begin(), found_.end(), [&](const PlaceMatch& better) {
@@ -84,6 +85,7 @@ void PlaceSearch::choose(std::size_t fewest, std::size_t most, float slack) {
     if (found_.size() >= fewest && match.score < found_.front().score - slack) break;
     found_.push_back(match);
   }
+  return found_;
 }
 
 }  // namespace adit

@@ -13,7 +13,7 @@ namespace adit {
 /// Which squares of a plan and sectors of headings hold a pose: a hash table that keeps its memory.
 class PoseCells {
  public:
-  /// Forgets all; no more than so many are put in.
+  /// Forgets all; no more than so many are put in. Sectors are no narrower than a 128th of a turn.
   void clear(std::size_t most, double cell_m, double sector_rad) {
     slots_.assign(std::bit_ceil(2 * most + 2), kFree);
     cell_m_ = cell_m;

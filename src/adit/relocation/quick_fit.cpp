@@ -31,7 +31,9 @@ inline Met meet(const WallField::Line& line, float x, float y) {
   const float dx = x - line.x;
   const float dy = y - line.y;
   const float along = dx * line.along_x + dy * line.along_y;
-  if (along < -WallField::kBeyondEnd || along > line.length + WallField::kBeyondEnd) return {};
+  const bool is_on_it =
+      along >= -WallField::kBeyondEnd && along <= line.length + WallField::kBeyondEnd;
+  if (!is_on_it) return {};
   return {dy * line.along_x - dx * line.along_y, -line.along_y, line.along_x, true};
 }
 

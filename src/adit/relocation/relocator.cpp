@@ -56,7 +56,7 @@ bool is_near(const Pose2& a, const Pose2& b, double metres, double radians) {
   return apart.head<2>().norm() <= metres && std::abs(apart.z()) <= radians;
 }
 
-/// The same search with more of everything that thins out the fits.
+/// With more of everything that thins out the fits.
 RelocationOptions thorough(RelocationOptions options) {
   options.fewest_candidates *= 2;
   options.candidates *= 2;
@@ -81,23 +81,37 @@ const RelocationResult& Relocator::locate(const RelocationQuery& query,
                                           const RefinementOptions& refinement,
                                           const StatusOptions& status) {
   refinement_ = refinement;
-  result_.verdict = look(query, options, likelihood, status);
+  likelihood_.set_walls(index_.walls());
+  likelihood_.set_scan(query.scan, query.scanner, query.map_error, likelihood);
+  const auto matches = search_.find(index_, query.scan, query.scanner, query.within, options);
+  result_.verdict = look(query, matches, options, likelihood, status);
   const bool is_sure = result_.verdict == Status::ok || result_.verdict == Status::degraded;
   if (is_sure && result_.gap < options.second_look_gap) {
-    result_.verdict = look(query, thorough(options), likelihood, status);
+    const RelocationOptions more = thorough(options);
+    const Pose2 first = result_.poses.front().pose;
+    result_.verdict = look(query, search_.choose(more), more, likelihood, status);
+    const bool is_same = !result_.poses.empty() && is_near(first, result_.poses.front().pose,
+                                                           options.apart_m, options.apart_rad);
+    if (!is_same && result_.verdict != Status::lost) result_.verdict = Status::ambiguous;
   }
   return result_;
 }
 
-Status Relocator::look(const RelocationQuery& query, const RelocationOptions& options,
-                       const LikelihoodOptions& likelihood, const StatusOptions& status) {
+/// Fits and weighs poses of the laser.
+Status Relocator::look(const RelocationQuery& query, std::span<const PlaceMatch> matches,
+                       const RelocationOptions& options, const LikelihoodOptions& likelihood,
+                       const StatusOptions& status) {
+  const Pose2 laser_from_vehicle = inverse(query.scan.vehicle_from_laser);
+  hypotheses_.clear();
+  for (const PlaceMatch& match : matches) {
+    hypotheses_.push_back({match.map_from_laser * laser_from_vehicle, 0.0});
+  }
   result_.poses.clear();
   result_.map_error = query.map_error;
-  likelihood_.set_walls(index_.walls());
-  likelihood_.set_scan(query.scan, query.scanner, query.map_error, likelihood);
-  rate_candidates(query, options);
+  likelihood_.set_map_error(query.map_error);
   fit_coarsely(query, options);
   fit_all_points(query, options);
+  result_.share_of_news = likelihood_.share_of_news();
   result_.gap = gap_to_others(options);
   weigh(options);
   examine_best(query, likelihood);
@@ -107,16 +121,6 @@ Status Relocator::look(const RelocationQuery& query, const RelocationOptions& op
 double Relocator::likelihood_at(const RelocationQuery& query, const Pose2& map_from_vehicle,
                                 double doubt_m) {
   return likelihood_.at(map_, map_from_vehicle * query.scan.vehicle_from_laser, doubt_m);
-}
-
-/// The poses whose views resemble the scan; those that agree most with the walls come first.
-void Relocator::rate_candidates(const RelocationQuery& query, const RelocationOptions& options) {
-  hypotheses_.clear();
-  const Pose2 laser_from_vehicle = inverse(query.scan.vehicle_from_laser);
-  for (const PlaceMatch& match :
-       search_.find(index_, query.scan, query.scanner, query.within, options)) {
-    hypotheses_.push_back({match.map_from_laser * laser_from_vehicle, 0.0});
-  }
 }
 
 const ScanFit& Relocator::fit(const RefinementInput& input, const Pose2& pose,
@@ -167,7 +171,8 @@ void Relocator::fit_coarsely(const RelocationQuery& query, const RelocationOptio
 /// Fits with ever smaller errors of the plan, down to the likeliest: at once with that, a fit that
 /// is a little off would take the walls for something else that stands near them.
 void Relocator::narrow_down(const RelocationQuery& query, const RelocationOptions& options) {
-  const double last = error_ratio(result_.map_error, query.map_error);
+  constexpr double kLeast = 0.05;
+  const double last = std::max(kLeast, error_ratio(result_.map_error, query.map_error));
   for (double ratio = 0.5; ratio > 1.01 * last; ratio *= 0.5) {
     fit_thinned(query, scaled(query.map_error, ratio), options);
   }
@@ -187,7 +192,8 @@ void Relocator::fit_thinned(const RelocationQuery& query, const MapError& error,
 void Relocator::rate_by_likeliest_error(const RelocationQuery& query, double doubt_m,
                                         const RelocationOptions& options) {
   std::vector<double> ratios;
-  for (double ratio = 1.0; ratio > 0.99 * options.least_map_ratio; ratio *= 0.5) {
+  const double least = std::max(0.01, options.least_map_ratio);
+  for (double ratio = 1.0; ratio > 0.99 * least; ratio *= 0.5) {
     ratios.push_back(ratio);
   }
   likelihood_.set_map_error(query.map_error);

@@ -31,11 +31,12 @@ struct RelocationResult {
   /// `ambiguous`: several do. `lost`: none.
   Status verdict = Status::lost;
   std::vector<RankedPose> poses;
-  /// How much less likely the best of the other poses is than the first (log, of what is news); no
-  /// more than the gap from which on they are not looked at.
+  /// How much less likely the best of the other poses is than the first (log, of what is news), as
+  /// far as that counts (`hopeless_gap`).
   double gap = 0.0;
-  BeamShares shares;   ///< at the first pose
-  MapError map_error;  ///< how much the plan errs by this scan; no more than stated
+  BeamShares shares;           ///< at the first pose
+  MapError map_error;          ///< how much the plan errs by this scan; no more than stated
+  double share_of_news = 1.0;  ///< what counts of differences of the log likelihoods
 };
 
 /// A scan to be found, and what is known beside it.
@@ -51,7 +52,7 @@ struct RelocationQuery {
 ///
 /// The index chooses places whose view resembles the scan (a scan shorter than the plan may be
 /// something that stands there, one that is longer went through rock); likelihood and fit of all
-/// points decide. Where others come near the best, a second search that thins out less must say the
+/// points decide. Where others come near the best, a second look that thins out less must say the
 /// same. Deterministic. Map and index must outlive it.
 class Relocator {
  public:
@@ -69,9 +70,9 @@ class Relocator {
     double log_likelihood = 0.0;
   };
 
-  Status look(const RelocationQuery& query, const RelocationOptions& options,
-              const LikelihoodOptions& likelihood, const StatusOptions& status);
-  void rate_candidates(const RelocationQuery& query, const RelocationOptions& options);
+  Status look(const RelocationQuery& query, std::span<const PlaceMatch> matches,
+              const RelocationOptions& options, const LikelihoodOptions& likelihood,
+              const StatusOptions& status);
   void fit_coarsely(const RelocationQuery& query, const RelocationOptions& options);
   void narrow_down(const RelocationQuery& query, const RelocationOptions& options);
   void fit_thinned(const RelocationQuery& query, const MapError& error,

@@ -32,11 +32,11 @@ void share_out(std::size_t count, int threads, const MakeWorker& make_worker) {
     }
   };
   std::vector<std::thread> pool;
-  pool.reserve(static_cast<std::size_t>(std::max(1, threads)));
+  pool.reserve(std::min(count, static_cast<std::size_t>(std::max(1, threads))));
   for (int i = 1; i < threads && static_cast<std::size_t>(i) < count; ++i) {
     try {
       pool.emplace_back(run);
-    } catch (const std::system_error&) {
+    } catch (...) {
       break;
     }
   }

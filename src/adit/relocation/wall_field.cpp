@@ -24,8 +24,6 @@ float squared_distance(const WallField::Line& line, float x, float y) {
 }  // namespace
 
 WallField::WallField(const LineMap& map) {
-  constexpr float kNowhere = -1e9F;  // length of a wall that nothing lies on
-  lines_.push_back({0.0F, 0.0F, 1.0F, 0.0F, kNowhere});
   if (map.empty()) return;
   const Vector2d size = map.bounds().size() + Vector2d::Constant(4.0 * kReach);
   const Vector2d squares = kPerMetre * size;
@@ -106,7 +104,8 @@ std::optional<WallField::Meeting> WallField::meet(const Vector2d& point) const {
 bool WallField::is_between(float from_x, float from_y, float to_x, float to_y,
                            float behind_m) const {
   constexpr float kStep = 1.0F / kPerMetre;
-  constexpr float kFreeStep = 1.0F;  // where no wall is near
+  constexpr float kFreeStep = 1.0F;    // where no wall is near
+  constexpr float kFarthest = 500.0F;  // from the scanner (m)
   const float dx = to_x - from_x;
   const float dy = to_y - from_y;
   const float range = std::sqrt(dx * dx + dy * dy);
@@ -114,7 +113,7 @@ bool WallField::is_between(float from_x, float from_y, float to_x, float to_y,
   const float east = dx / range;
   const float north = dy / range;
   std::int32_t before = kNone;
-  for (float way = 0.0F; way < range;) {
+  for (float way = 0.0F; way < std::min(range, kFarthest);) {
     const std::int32_t number = nearest(from_x + way * east, from_y + way * north);
     way += number == kNone ? kFreeStep : kStep;
     if (number == kNone || number == before) continue;

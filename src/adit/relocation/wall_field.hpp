@@ -86,7 +86,8 @@ class WallField {
   std::int32_t tile_columns_ = 0;
   std::vector<std::int32_t> tiles_;  // the first where no wall is near
   std::vector<Tile> cells_;
-  std::vector<Line> lines_;  // one after those of the map
+  // One after those of the map; on the first nothing lies.
+  std::vector<Line> lines_{{0.0F, 0.0F, 1.0F, 0.0F, -1e9F}};
 };
 
 }  // namespace adit
