@@ -22,13 +22,15 @@ struct LocateOptions {
   int side = 20;
   int worst = 0;
   int oracle = 0;
+  int trace = 0;
   std::string index;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
     field("plan", self.plan,
-          "niosh, edgar; regular (a panel like itself everywhere), outside (scans of edgar, sought "
-          "in niosh), intel (a real log), big (a panel of side * side pillars)");
+          "niosh, edgar; regular (a panel like itself everywhere), gap (one of its pillars is "
+          "missing), entry (equal pillars, one drift through the outline), big (unequal pillars); "
+          "outside (scans of edgar, sought in niosh), outside_niosh, intel (a real log)");
     field("scanner", self.scanner, "cyclone, sick, sick_lms or hokuyo");
     field("data", self.data, "folder of plans and logs");
     field("clutter", self.clutter, "pieces of it, other ones for each scan");
@@ -42,6 +44,8 @@ struct LocateOptions {
           "lists so many of the scans that are not ok and right; above `count`, all");
     field("oracle", self.oracle,
           "of so many of the scans brute force says whether they allow one answer: seconds a scan");
+    field("trace", self.trace,
+          "of drives, this one alone and scan by scan; the first is 1, 0 for none");
     field("index", self.index, "file to which the index is saved, and from which it is read");
   }
 };

@@ -8,6 +8,7 @@
 #include "adit/io/trajectory.hpp"
 #include "adit/simulation/clutter.hpp"
 #include "adit/simulation/random.hpp"
+#include "panel_scene.hpp"
 
 namespace adit {
 namespace {
@@ -16,8 +17,6 @@ namespace {
 constexpr std::uint64_t kNoise = 41;
 constexpr std::uint64_t kPlaces = 42;
 
-constexpr double kPitch = 20.0;   // from pillar to pillar (m)
-constexpr double kEntry = 6.0;    // width of the openings (m)
 constexpr double kNearby = 25.0;  // farther walls are not in the way of clutter (m)
 
 /// Takes scans in a mine, each with clutter of its own.
@@ -44,46 +43,6 @@ class Surveyor {
   ScannerSpec spec_;
   const LocateOptions& options_;
 };
-
-/// A panel of side * side pillars in an outline; `variation_m` moves their sides.
-std::vector<Segment> panel_plan(int side, double variation_m, std::uint64_t seed) {
-  Random random(seed, kPlaces);
-  const double size = side * kPitch + kEntry;
-  const auto box = [](double x0, double y0, double x1, double y1, std::vector<Segment>& out) {
-    const std::vector<Vector2d> corners{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-    const std::vector<Segment> sides = outline(corners);
-    out.insert(out.end(), sides.begin(), sides.end());
-  };
-  std::vector<Segment> plan;
-  box(0.0, 0.0, size, size, plan);
-  for (int row = 0; row < side; ++row) {
-    for (int column = 0; column < side; ++column) {
-      const auto vary = [&] { return variation_m * random.uniform(-1.0, 1.0); };
-      const double x = column * kPitch + kEntry;
-      const double y = row * kPitch + kEntry;
-      const double far = kPitch - kEntry;
-      const double left = x + vary();
-      const double low = y + vary();
-      box(left, low, x + far + vary(), y + far + vary(), plan);
-    }
-  }
-  return plan;
-}
-
-/// Places in the openings of a panel, a metre and a half clear of its pillars.
-std::vector<Pose2> places_in_panel(int side, int count, std::uint64_t seed) {
-  Random random(seed, kPlaces + 1);
-  std::vector<Pose2> places;
-  while (static_cast<int>(places.size()) < count) {
-    const int line = random.below(side + 1);
-    const double across = line * kPitch + random.uniform(1.5, kEntry - 1.5);
-    const double along = random.uniform(1.5, side * kPitch + kEntry - 1.5);
-    const double heading = random.uniform(-kPi, kPi);
-    places.push_back(random.chance(0.5) ? Pose2{across, along, heading}
-                                        : Pose2{along, across, heading});
-  }
-  return places;
-}
 
 std::string mine(const LocateOptions& options, const std::string& name) {
   return options.data + "/mines/" + name;
@@ -121,16 +80,45 @@ Result<LocateScene> mine_scene(const LocateOptions& options, const ScannerSpec& 
   return scene;
 }
 
-LocateScene panel_scene(const LocateOptions& options, const ScannerSpec& spec, double variation_m) {
-  const std::vector<Segment> plan = panel_plan(options.side, variation_m, options.seed);
+LocateScene panel_scene(const LocateOptions& options, const ScannerSpec& spec,
+                        const PanelLayout& panel) {
+  const std::vector<Segment> plan = panel_walls(panel, options.seed);
   LocateScene scene;
   scene.map = LineMap::build(plan);
   const Surveyor surveyor(plan, spec, options);
-  const std::vector<Pose2> places = places_in_panel(options.side, options.count, options.seed);
+  const std::vector<Pose2> places = places_in_panel(panel, options.count, options.seed);
   for (std::size_t i = 0; i < places.size(); ++i) {
     scene.cases.push_back({surveyor.scan_at(places[i], i), places[i]});
   }
+  if (panel.mark == PanelMark::none) return scene;
+  PanelLayout unmarked = panel;
+  unmarked.mark = PanelMark::none;
+  scene.unmarked = panel_walls(unmarked, options.seed);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    scene.drives.push_back(drive_past_mark(panel, options.seed * 1000003u + i));
+  }
   return scene;
+}
+
+/// The panel of this name, if it is one.
+std::optional<PanelLayout> panel_named(const std::string& name, int side) {
+  PanelLayout panel;
+  panel.side = side;
+  if (name == "regular") return panel;
+  if (name == "big") {
+    panel.variation_m = 0.5;
+    return panel;
+  }
+  if (name == "gap") {
+    panel.mark = PanelMark::missing_pillar;
+    return panel;
+  }
+  if (name == "entry") {
+    panel.mark = PanelMark::entry;
+    panel.pitch_y_m = 25.0;
+    return panel;
+  }
+  return std::nullopt;
 }
 
 /// Scans of a real log that have a reference pose, drawn at random.
@@ -169,8 +157,9 @@ Result<LocateScene> scene_of(const LocateOptions& options, const ScannerSpec& sp
   }
   if (options.plan == "outside") return mine_scene(options, spec, "edgar", "niosh");
   if (options.plan == "outside_niosh") return mine_scene(options, spec, "niosh", "edgar");
-  if (options.plan == "regular") return panel_scene(options, spec, 0.0);
-  if (options.plan == "big") return panel_scene(options, spec, 0.5);
+  if (const auto panel = panel_named(options.plan, options.side)) {
+    return panel_scene(options, spec, *panel);
+  }
   if (options.plan == "intel") return log_scene(options);
   return fail("'" + options.plan + "': no such plan");
 }

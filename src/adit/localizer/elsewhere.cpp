@@ -1,6 +1,8 @@
 // Where the pose is lost: the search in the whole mine, and the hypotheses that it leaves.
 
 #include <algorithm>
+#include <cmath>
+#include <vector>
 
 #include "adit/localizer/localizer.hpp"
 #include "adit/relocation/fit_quality.hpp"
@@ -19,7 +21,13 @@ Matrix3d turned(const Matrix3d& covariance, double by) {
 }  // namespace
 
 PlaceFinderOptions Localizer::finder_options() const {
-  return {settings_.places, settings_.relocation, settings_.likelihood, settings_.refinement,
+  RelocationOptions relocation = settings_.relocation;
+  for (int* most : {&relocation.listed, &relocation.refined, &relocation.fitted_again,
+                    &relocation.rated_again}) {
+    *most = std::max(*most, settings_.recovery.most_poses);
+  }
+  relocation.second_look_gap = 0.0;  // the first is thorough, and the way decides
+  return {settings_.places, relocation, settings_.likelihood, settings_.refinement,
           settings_.status};
 }
 
@@ -43,7 +51,7 @@ void Localizer::weigh_hypotheses(const LaserScan& scan) {
     return;
   }
   const Hypotheses::Hypothesis& best = hypotheses_.all().front();
-  const bool is_own = best.is_own;
+  const bool is_own = best.is_privileged();
   const bool is_believed =
       hypotheses_.is_decided(settings_.hypotheses) && (is_own || is_confirmed_);
   is_confirmed_ = false;  // of the pose that led at this scan
@@ -101,18 +109,28 @@ void Localizer::take_search() {
     trust_.doubt();
   }
   const bool is_first = hypotheses_.empty();
+  const FitRules rules{map_, settings_.refinement, settings_.tracking, settings_.status};
   bool is_news = found.verdict == Status::lost;
+  const RelocationOptions searched = finder_options().relocation;
+  const int most = std::min(searched.refined, searched.listed);
+  const bool is_complete = static_cast<int>(found.poses.size()) < most;
+  std::vector<Hypotheses::Listed> listed;
   for (const RankedPose& pose : found.poses) {
-    if (found.verdict == Status::lost || !explains(pose.quality, settings_.status)) continue;
     const PoseWithCovariance& way = since_search_.estimate();
     PoseWithCovariance here = carry({pose.pose, pose.covariance}, way.pose);
     here.covariance += turned(way.covariance, pose.pose.theta);
-    if (hypotheses_.add(here, settings_.hypotheses)) is_news = true;
+    const double least = is_complete ? searched.least_weight : found.poses.back().weight;
+    listed.push_back({here.pose, std::log(pose.weight / least)});
+    if (found.verdict == Status::lost || !explains(pose.quality, settings_.status)) continue;
+    if (hypotheses_.add_late(here, rules, settings_.hypotheses)) is_news = true;
   }
+  hypotheses_.note_listed(listed, schedule_.way_before_m(), settings_.hypotheses);
   // A search fits so many poses and no more: in a mine that repeats itself the true one may be
-  // missing. Only another search, elsewhere, that finds few and no new one says that none is.
-  const int few = std::min(settings_.relocation.refined, settings_.relocation.listed) / 2;
-  is_confirmed_ = !is_first && !is_news && static_cast<int>(found.poses.size()) <= few;
+  // missing. Only another search, elsewhere, that finds few and no new one says that none is; or
+  // several that find many, the pose always before all that are left out.
+  const bool is_few = static_cast<int>(found.poses.size()) <= most / 2;
+  is_confirmed_ =
+      !is_first && !is_news && (is_few || hypotheses_.leads_unlisted(settings_.hypotheses));
   if (hypotheses_.empty()) {
     schedule_.note_failure(settings_.recovery);
   } else if (is_first && !is_anywhere_) {
@@ -143,11 +161,14 @@ void Localizer::follow(const Hypotheses::Hypothesis& hypothesis, const Refinemen
 /// Begins a search: for a scan that contradicts the pose, for one of which a trusted pose explains
 /// little, or for one at which a pose is about to be believed.
 void Localizer::seek_elsewhere(const LaserScan& scan) {
+  schedule_.drive(way_m_);
   if (!uses_points() || !settings_.recovery.searches || finder_.is_searching()) return;
   const bool is_lost = is_anywhere_ || trust_.contradicted();
+  const bool is_on_way = schedule_.is_elsewhere(settings_.recovery);
   const auto is_due = [&] {
-    if (!hypotheses_.empty()) return hypotheses_.is_decided(settings_.hypotheses);
-    return is_lost ? schedule_.is_search_due() : is_doubtful() && doubts_.is_search_due();
+    if (!hypotheses_.empty()) return is_on_way || hypotheses_.is_decided(settings_.hypotheses);
+    if (is_lost) return schedule_.is_search_due() || is_on_way;
+    return is_doubtful() && doubts_.is_search_due();
   };
   if (!is_due()) return;
   if (scan_fit_.counts.returns() < settings_.status.fewest_returns && !is_anywhere_) return;

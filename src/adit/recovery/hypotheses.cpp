@@ -6,19 +6,6 @@
 #include "adit/relocation/fit_quality.hpp"
 
 namespace adit {
-namespace {
-
-// A fit may begin no surer than this of where it is (m, rad).
-constexpr double kFloor = 0.1;
-constexpr double kFloorRad = 0.02;
-
-PoseWithCovariance loosened(const PoseWithCovariance& pose) {
-  PoseWithCovariance out = pose;
-  out.covariance.diagonal() += Vector3d(kFloor, kFloor, kFloorRad).cwiseAbs2();
-  return out;
-}
-
-}  // namespace
 
 bool are_one(const Pose2& a, const Pose2& b, const HypothesesOptions& options) {
   const Vector3d apart = difference(a, b);
@@ -49,26 +36,101 @@ bool Hypotheses::add(const PoseWithCovariance& map_from_vehicle, const Hypothese
   return true;
 }
 
+bool Hypotheses::add_late(const PoseWithCovariance& map_from_vehicle, const FitRules& rules,
+                          const HypothesesOptions& options) {
+  const bool others_know = !all_.empty() && memory_.size() > 0;
+  const bool had_new = has_new_;
+  if (!add(map_from_vehicle, options)) return false;
+  if (!others_know) return true;
+  has_new_ = had_new;
+  const auto look_back = [&](const PoseWithCovariance& pose) {
+    return memory_.look_back(pose, rules, options.sure_evidence_ratio, refiner_);
+  };
+  if (!leading_past_) leading_past_ = look_back(all_.front().tracker.estimate());
+  const Retrospect past = look_back(map_from_vehicle);
+  Hypothesis& added = all_.back();
+  added.log_odds = all_.front().log_odds + lead_over_first(past);
+  added.explained = past.explained;
+  added.explained_m = past.explained_m;
+  if (past.contradicted < options.scans_to_refute &&
+      added.log_odds > all_.front().log_odds + std::log1p(-options.sure_weight)) {
+    return true;
+  }
+  all_.pop_back();
+  return false;
+}
+
+/// How much likelier a pose with this past is than the first (log), had it been known before.
+double Hypotheses::lead_over_first(const Retrospect& past) const {
+  double lead = 0.0;
+  for (std::size_t i = 0; i < past.witnesses.size(); ++i) {
+    const Witness& its = past.witnesses[i];
+    const Witness& first = leading_past_->witnesses[i];
+    const double more = its.log_likelihood - first.log_likelihood;
+    lead += (more > 0.0 ? its : first).share_of_news * more;
+  }
+  return lead;
+}
+
+/// Keeps the scan, unless none of those that a search found explains it: it may have been taken
+/// anywhere.
+void Hypotheses::remember(const HypothesesTurn& turn, const HypothesesOptions& options) {
+  const bool is_explained = std::any_of(all_.begin(), all_.end(), [](const Hypothesis& known) {
+    return !known.is_own && known.contradicted == 0;
+  });
+  if (is_explained) memory_.add(turn.input, options.memory);
+}
+
 void Hypotheses::predict(const Pose2& move, const OdometryNoise& noise,
                          const TrackingOptions& options) {
   for (Hypothesis& hypothesis : all_) hypothesis.tracker.predict(move, noise, options);
+  memory_.predict(move, noise, options);
 }
 
 void Hypotheses::blur(double metres, double radians) {
   for (Hypothesis& hypothesis : all_) hypothesis.tracker.blur(metres, radians);
+  memory_.blur(metres, radians);
 }
 
 void Hypotheses::weigh(const HypothesesTurn& turn, const HypothesesOptions& options) {
   if (all_.empty()) return;
+  leading_past_.reset();
   witnesses_.clear();
   for (Hypothesis& hypothesis : all_) witnesses_.push_back(take_in(hypothesis, turn, options));
   if (std::any_of(witnesses_.begin(), witnesses_.end(), [](const Witness& w) { return w.sees; })) {
     raise_odds(has_new_ ? 1.0 : std::min(1.0, turn.way_m / options.independent_way_m));
     has_new_ = false;
+    remember(turn, options);
   }
   drop_contradicted(options);
   merge(options);
   normalise(options);
+  outdo_own(turn.way_m, options);
+}
+
+/// Counts the way for which another has been sure beside the one by dead reckoning.
+void Hypotheses::outdo_own(double way_m, const HypothesesOptions& options) {
+  if (all_.empty()) return;
+  const Hypothesis& first = all_.front();
+  const bool is_outdone =
+      !first.is_own && first.explained > 0 && first.weight >= options.sure_weight;
+  for (Hypothesis& hypothesis : all_) {
+    if (!hypothesis.is_own) continue;
+    hypothesis.outdone_m = is_outdone ? hypothesis.outdone_m + way_m : 0.0;
+    if (hypothesis.outdone_m >= options.way_to_outdo_own_m) hypothesis.is_refuted = true;
+  }
+}
+
+void Hypotheses::note_listed(std::span<const Listed> listed, double way_m,
+                             const HypothesesOptions& options) {
+  const double news = std::min(1.0, way_m / options.independent_way_m);
+  for (Hypothesis& hypothesis : all_) {
+    const auto found = std::find_if(listed.begin(), listed.end(), [&](const Listed& other) {
+      return are_one(other.pose, hypothesis.tracker.estimate().pose, options);
+    });
+    hypothesis.unlisted_lead =
+        found != listed.end() ? hypothesis.unlisted_lead + news * found->lead : 0.0;
+  }
 }
 
 /// By what the scan says, if so much of it is new since the last.
@@ -83,39 +145,51 @@ void Hypotheses::raise_odds(double news) {
 }
 
 /// Fits the scan near where dead reckoning has the hypothesis.
-Hypotheses::Witness Hypotheses::take_in(Hypothesis& hypothesis, const HypothesesTurn& turn,
-                                        const HypothesesOptions& options) {
+Witness Hypotheses::take_in(Hypothesis& hypothesis, const HypothesesTurn& turn,
+                            const HypothesesOptions& options) {
   if (hypothesis.is_own) hypothesis.tracker = turn.own;
   hypothesis.predicted = hypothesis.tracker;
   const PoseWithCovariance start = loosened(hypothesis.tracker.estimate());
   const ScanFit& fit =
       hypothesis.is_own ? turn.own_fit : refiner_.refine(turn.input, start, start, turn.refinement);
-  const FitQuality quality = quality_of(fit);
-  if (quality.returns < turn.status.fewest_returns) return {};  // a blind scanner says nothing
-  judge(fit, quality, turn, options, hypothesis);
-  if (hypothesis.contradicted == 0) {
-    hypothesis.tracker.update({fit.pose, fit.score, fit.information, fit.white_information},
-                              turn.tracking);
+  const Testimony says = testimony_of(fit, turn.status, options.sure_evidence_ratio);
+  if (says == Testimony::blind) return {};
+  if (says == Testimony::contradicts) {
+    contradict(turn, options, hypothesis);
+  } else {
+    judge(says, turn, hypothesis);
   }
-  return {fit.log_likelihood, shared_ratio(fit), true};
+  if (hypothesis.contradicted == 0) {
+    hypothesis.tracker.update(observation_of(fit), turn.tracking);
+  }
+  return witness_of(fit);
 }
 
-/// Counts the scans that explain or contradict a hypothesis.
-void Hypotheses::judge(const ScanFit& fit, const FitQuality& quality, const HypothesesTurn& turn,
-                       const HypothesesOptions& options, Hypothesis& hypothesis) {
-  if (!explains(quality, turn.status)) {
-    // Where one wall of the plan is wrong, a place that looks alike but for it explains scans
-    // better. That alone does not refute the way here.
-    const bool may_hold =
-        hypothesis.is_own && explains(quality_of(turn.own_but_a_wall), turn.status);
-    hypothesis.contradicted = may_hold ? 0 : hypothesis.contradicted + 1;
-    hypothesis.explained = 0;
+/// Counts the scans in a row that contradict a hypothesis.
+void Hypotheses::contradict(const HypothesesTurn& turn, const HypothesesOptions& options,
+                            Hypothesis& hypothesis) {
+  hypothesis.explained = 0;
+  // Where one wall of the plan is wrong, a place that looks alike but for it explains scans
+  // better. That alone does not refute the way here.
+  if (hypothesis.is_own && explains(quality_of(turn.own_but_a_wall), turn.status)) {
+    hypothesis.contradicted = 0;
+    hypothesis.contradicted_m = 0.0;
     return;
   }
+  hypothesis.contradicted_m += hypothesis.contradicted > 0 ? turn.way_m : 0.0;
+  ++hypothesis.contradicted;
+  if (hypothesis.is_own && hypothesis.contradicted_m >= options.way_to_refute_own_m) {
+    hypothesis.is_refuted = true;
+  }
+}
+
+/// Counts those that confirm one. A scan that leaves a direction open does so for all places in a
+/// drift: it neither counts nor ends the row.
+void Hypotheses::judge(Testimony says, const HypothesesTurn& turn, Hypothesis& hypothesis) {
   hypothesis.contradicted = 0;
-  const bool shows_all = !open_direction(fix_covariance(fit.information), turn.status);
-  const bool is_sure =
-      hypothesis.is_own || (quality.evidence_ratio > options.sure_evidence_ratio && shows_all);
+  hypothesis.contradicted_m = 0.0;
+  const bool is_sure = says == Testimony::sure || hypothesis.is_privileged();
+  if (!is_sure && says == Testimony::open) return;
   const bool goes_on = is_sure && hypothesis.explained > 0;
   hypothesis.explained_m = goes_on ? hypothesis.explained_m + turn.way_m : 0.0;
   hypothesis.explained = is_sure ? hypothesis.explained + 1 : 0;
@@ -158,8 +232,10 @@ void Hypotheses::normalise(const HypothesesOptions& options) {
     sum += hypothesis.weight;
   }
   for (Hypothesis& hypothesis : all_) hypothesis.weight /= sum;
+  int rank = 0;
   std::erase_if(all_, [&](const Hypothesis& hypothesis) {
-    return !hypothesis.is_own && hypothesis.weight < options.least_weight;
+    return !hypothesis.is_own &&
+           (++rank > options.most_carried || hypothesis.weight < options.least_weight);
   });
 }
 
@@ -188,11 +264,12 @@ bool Hypotheses::is_decided(const HypothesesOptions& options) const {
   if (all_.empty() || all_.front().weight < options.sure_weight) return false;
   const Hypothesis& best = all_.front();
   if (best.explained < options.scans_to_confirm) return false;
-  if (best.is_own) return true;
+  if (best.is_privileged()) return true;
   // Where the plan is wrong another place may explain the scans better; not as long as the way
   // here.
   const Hypothesis* mine = own();
-  const bool own_holds = mine != nullptr && mine->contradicted < options.scans_to_refute;
+  const bool own_holds =
+      mine != nullptr && mine->is_privileged() && mine->contradicted < options.scans_to_refute;
   return !own_holds && best.explained_m >= options.way_to_confirm_m;
 }
 

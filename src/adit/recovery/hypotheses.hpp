@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
+#include <span>
 #include <vector>
 
+#include "adit/recovery/drive_memory.hpp"
 #include "adit/refinement/refinement.hpp"
 #include "adit/tracking/pose_tracker.hpp"
 #include "adit/tracking/verdict.hpp"
@@ -18,9 +21,14 @@ struct HypothesesOptions {
   double sure_evidence_ratio = 0.75;
   double own_gain = 3.0;
   double own_way_m = 10.0;
+  double way_to_refute_own_m = 3.0;
+  double way_to_outdo_own_m = 8.0;
+  double unlisted_lead = 9.0;
   double independent_way_m = 2.0;
   double same_place_m = 0.5;
   double same_heading_rad = 0.1;
+  int most_carried = 64;
+  DriveMemoryOptions memory;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -43,6 +51,17 @@ struct HypothesesOptions {
     field("own_way_m", self.own_way_m,
           "a pose by dead reckoning that was trusted for less than this way (m) is one of the "
           "others");
+    field("way_to_refute_own_m", self.way_to_refute_own_m,
+          "and so is one that scan after scan has contradicted for so much way (m): if it explains "
+          "what is seen again, by chance perhaps");
+    field(
+        "way_to_outdo_own_m", self.way_to_outdo_own_m,
+        "or one beside which another has been sure for so much way (m): plans are wrong at places, "
+        "not all along");
+    field(
+        "unlisted_lead", self.unlisted_lead,
+        "searches that list no more than some of the poses leave room for another, until the pose "
+        "leads those that were left out by this (log of the odds, over searches on the way)");
     field("independent_way_m", self.independent_way_m,
           "a scan is news in full after so much way since the last (m); before, it sees the same "
           "walls again");
@@ -80,15 +99,24 @@ class Hypotheses {
     PoseTracker tracker;    // with the last scan taken in
     PoseTracker predicted;  // without
     double log_odds = 0.0;
-    double weight = 0.0;       // of all
-    int explained = 0;         // scans in a row ...
-    double explained_m = 0.0;  // ... and their way
-    int contradicted = 0;
-    bool is_own = false;  // by dead reckoning
+    double weight = 0.0;          // of all
+    int explained = 0;            // scans in a row ...
+    double explained_m = 0.0;     // ... and their way
+    int contradicted = 0;         // scans in a row ...
+    double contradicted_m = 0.0;  // ... and their way
+    bool is_own = false;          // by dead reckoning
+    bool is_refuted = false;      // contradicted or outdone for long; of one by dead reckoning
+    double outdone_m = 0.0;       // way for which another has been sure; likewise
+    double unlisted_lead = 0.0;   // over poses that all searches left out (log)
+
+    /// Whether it is believed without the proof that is asked of one that a search found.
+    bool is_privileged() const { return is_own && !is_refuted; }
   };
 
   void clear() {
     all_.clear();
+    memory_.clear();
+    leading_past_.reset();
     has_new_ = false;
   }
   bool empty() const { return all_.empty(); }
@@ -105,6 +133,18 @@ class Hypotheses {
   void add_own(const PoseTracker& tracker, const HypothesesOptions& options);
   /// Another, that a search has found. False if it is held already.
   bool add(const PoseWithCovariance& map_from_vehicle, const HypothesesOptions& options);
+  /// The same while others are carried: it is held against the scans of the way as they were. False
+  /// as well if these refute it, or leave it too unlikely to matter.
+  bool add_late(const PoseWithCovariance& map_from_vehicle, const FitRules& rules,
+                const HypothesesOptions& options);
+
+  /// What a search listed, for hypotheses and what is none yet, and how much likelier each is than
+  /// any that is not listed (log); `way_m` is that since the last search.
+  struct Listed {
+    Pose2 pose;
+    double lead = 0.0;
+  };
+  void note_listed(std::span<const Listed> listed, double way_m, const HypothesesOptions& options);
 
   void predict(const Pose2& move, const OdometryNoise& noise, const TrackingOptions& options);
   /// Time without dead reckoning: all may have moved by this.
@@ -121,24 +161,25 @@ class Hypotheses {
   Matrix3d covariance_about(const Pose2& pose) const;
   /// Whether the most plausible may be believed.
   bool is_decided(const HypothesesOptions& options) const;
+  /// Whether the most plausible leads all that no search has listed.
+  bool leads_unlisted(const HypothesesOptions& options) const {
+    return !all_.empty() && all_.front().unlisted_lead >= options.unlisted_lead;
+  }
   /// The most plausible first.
   const std::vector<Hypothesis>& all() const { return all_; }
 
  private:
-  /// What a scan says of a hypothesis.
-  struct Witness {
-    double log_likelihood = 0.0;
-    double share_of_news = 0.0;  // of it, for correlated beams say the same
-    bool sees = false;           // returns enough to say something
-  };
-
   Witness take_in(Hypothesis& hypothesis, const HypothesesTurn& turn,
                   const HypothesesOptions& options);
-  static void judge(const ScanFit& fit, const FitQuality& quality, const HypothesesTurn& turn,
-                    const HypothesesOptions& options, Hypothesis& hypothesis);
+  static void judge(Testimony says, const HypothesesTurn& turn, Hypothesis& hypothesis);
+  static void contradict(const HypothesesTurn& turn, const HypothesesOptions& options,
+                         Hypothesis& hypothesis);
   void raise_odds(double news);
+  double lead_over_first(const Retrospect& past) const;
+  void remember(const HypothesesTurn& turn, const HypothesesOptions& options);
   /// The one by dead reckoning, or null.
   const Hypothesis* own() const;
+  void outdo_own(double way_m, const HypothesesOptions& options);
   void drop_contradicted(const HypothesesOptions& options);
   void merge(const HypothesesOptions& options);
   void normalise(const HypothesesOptions& options);
@@ -146,6 +187,8 @@ class Hypotheses {
   std::vector<Hypothesis> all_;
   std::vector<Witness> witnesses_;
   bool has_new_ = false;  // since the last scan
+  DriveMemory memory_;
+  std::optional<Retrospect> leading_past_;  // of the first, until the next scan
   Refiner refiner_;
 };
 

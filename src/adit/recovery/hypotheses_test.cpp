@@ -97,6 +97,60 @@ TEST_F(HypothesesTest, WhatTellsThemApartDecidesAfterSomeWay) {
   EXPECT_NEAR(hypotheses.leader().tracker.estimate().pose.x, 49.5, 0.1);
 }
 
+TEST_F(HypothesesTest, APoseThatIsFoundLateIsHeldAgainstTheWay) {
+  const FitRules rules{map, refinement, tracking, status};
+  Hypotheses hypotheses;
+  hypotheses.add(near({46.0, 6.0, 0.0}), options);
+  for (int i = 1; i <= 10; ++i) drive(hypotheses, {46.0 + 0.5 * i, 6.0, 0.0}, 0.5);
+  // What the first room shows has never been what the scans saw.
+  EXPECT_FALSE(hypotheses.add_late(near({11.0, 6.0, 0.0}), rules, options));
+  EXPECT_FALSE(hypotheses.add_late(near({51.0, 6.0, kPi}), rules, options));
+  EXPECT_EQ(hypotheses.size(), 1u);
+}
+
+TEST_F(HypothesesTest, ATrueOneThatIsFoundLateHasTheWayToItsCredit) {
+  const FitRules rules{map, refinement, tracking, status};
+  Hypotheses hypotheses;
+  hypotheses.add(near({6.0, 6.0, 0.0}), options);
+  status.least_evidence_ratio = 0.0;  // it is not contradicted, only unlikely
+  status.evidence_per_behind = 0.0;
+  status.most_behind_ratio = 1.0;
+  for (int i = 1; i <= 10; ++i) drive(hypotheses, {46.0 + 0.5 * i, 6.0, 0.0}, 0.5);
+  ASSERT_EQ(hypotheses.size(), 1u);
+  ASSERT_TRUE(hypotheses.add_late(near({51.0, 6.0, 0.0}), rules, options));
+  drive(hypotheses, {51.0, 6.0, 0.0}, 0.0);
+  EXPECT_NEAR(hypotheses.all().front().tracker.estimate().pose.x, 51.0, 0.1);
+  EXPECT_GT(hypotheses.all().front().weight, options.sure_weight);
+  EXPECT_GE(hypotheses.all().front().explained_m, options.way_to_confirm_m);
+}
+
+TEST_F(HypothesesTest, OneThatLeadsWhatManySearchesLeftOutIsComplete) {
+  Hypotheses hypotheses;
+  hypotheses.add(near({46.0, 6.0, 0.0}), options);
+  const Pose2 here = hypotheses.all().front().tracker.estimate().pose;
+  const std::vector<Hypotheses::Listed> listed = {{here, 4.0}};
+  hypotheses.note_listed(listed, 2.0, options);
+  hypotheses.note_listed(listed, 0.0, options);  // the same walls again
+  hypotheses.note_listed(listed, 2.0, options);
+  EXPECT_FALSE(hypotheses.leads_unlisted(options));
+  hypotheses.note_listed(listed, 1.0, options);
+  EXPECT_TRUE(hypotheses.leads_unlisted(options));
+  hypotheses.note_listed({}, 2.0, options);  // a search that does not find it
+  EXPECT_FALSE(hypotheses.leads_unlisted(options));
+}
+
+TEST_F(HypothesesTest, ALongContradictionEndsTheVetoOfThePoseByDeadReckoning) {
+  own.start(near({6.0, 6.0, 2.0}));  // no scan fits there
+  Hypotheses hypotheses;
+  hypotheses.add(near({46.0, 6.0, 0.0}), options);
+  hypotheses.add_own(own, options);
+  double x = 46.0;
+  for (int i = 0; i < 8; ++i) drive(hypotheses, {x += 0.5, 6.0, 0.0}, 0.5);
+  ASSERT_TRUE(hypotheses.leader().is_own);
+  EXPECT_TRUE(hypotheses.leader().is_refuted);
+  EXPECT_FALSE(hypotheses.leader().is_privileged());
+}
+
 TEST_F(HypothesesTest, StandingStillDecidesNothing) {
   Hypotheses hypotheses;
   hypotheses.add(near({46.0, 6.0, 0.0}), options);

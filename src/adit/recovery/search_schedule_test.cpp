@@ -42,6 +42,20 @@ TEST(SearchSchedule, EachFailureDoublesTheWait) {
   }
 }
 
+TEST(SearchSchedule, SoMuchWayShowsMoreOfTheMine) {
+  RecoveryOptions options = every_three();
+  options.way_between_m = 2.0;
+  SearchSchedule schedule;
+  schedule.begin(options);
+  schedule.drive(1.5);
+  EXPECT_FALSE(schedule.is_elsewhere(options));
+  schedule.drive(0.5);
+  EXPECT_TRUE(schedule.is_elsewhere(options));
+  schedule.begin(options);
+  EXPECT_FALSE(schedule.is_elsewhere(options));
+  EXPECT_DOUBLE_EQ(schedule.way_before_m(), 2.0);
+}
+
 TEST(SearchSchedule, SuccessForgetsTheFailures) {
   SearchSchedule schedule;
   for (int i = 0; i < 5; ++i) schedule.note_failure(every_three());
