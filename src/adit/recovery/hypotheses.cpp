@@ -108,14 +108,16 @@ void Hypotheses::weigh(const HypothesesTurn& turn, const HypothesesOptions& opti
   outdo_own(turn.way_m, options);
 }
 
-/// Counts the way for which another has been sure beside the one by dead reckoning.
+/// Counts the way for which another has been sure beside the one by dead reckoning, and has
+/// explained more.
 void Hypotheses::outdo_own(double way_m, const HypothesesOptions& options) {
   if (all_.empty()) return;
   const Hypothesis& first = all_.front();
-  const bool is_outdone =
-      !first.is_own && first.explained > 0 && first.weight >= options.sure_weight;
+  const bool is_sure = !first.is_own && first.explained > 0 && first.weight >= options.sure_weight;
   for (Hypothesis& hypothesis : all_) {
     if (!hypothesis.is_own) continue;
+    const bool is_outdone =
+        is_sure && first.evidence_ratio > hypothesis.evidence_ratio + options.outdoing_evidence;
     hypothesis.outdone_m = is_outdone ? hypothesis.outdone_m + way_m : 0.0;
     if (hypothesis.outdone_m >= options.way_to_outdo_own_m) hypothesis.is_refuted = true;
   }
@@ -154,6 +156,7 @@ Witness Hypotheses::take_in(Hypothesis& hypothesis, const HypothesesTurn& turn,
       hypothesis.is_own ? turn.own_fit : refiner_.refine(turn.input, start, start, turn.refinement);
   const Testimony says = testimony_of(fit, turn.status, options.sure_evidence_ratio);
   if (says == Testimony::blind) return {};
+  hypothesis.evidence_ratio = quality_of(fit).evidence_ratio;
   if (says == Testimony::contradicts) {
     contradict(turn, options, hypothesis);
   } else {

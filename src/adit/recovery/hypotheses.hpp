@@ -23,6 +23,7 @@ struct HypothesesOptions {
   double own_way_m = 10.0;
   double way_to_refute_own_m = 3.0;
   double way_to_outdo_own_m = 8.0;
+  double outdoing_evidence = 0.1;
   double unlisted_lead = 9.0;
   double independent_way_m = 2.0;
   double same_place_m = 0.5;
@@ -57,7 +58,9 @@ struct HypothesesOptions {
     field(
         "way_to_outdo_own_m", self.way_to_outdo_own_m,
         "or one beside which another has been sure for so much way (m): plans are wrong at places, "
-        "not all along");
+        "not all along ...");
+    field("outdoing_evidence", self.outdoing_evidence,
+          "... and explained more of every scan, by this share of it");
     field(
         "unlisted_lead", self.unlisted_lead,
         "searches that list no more than some of the poses leave room for another, until the pose "
@@ -100,6 +103,7 @@ class Hypotheses {
     PoseTracker predicted;  // without
     double log_odds = 0.0;
     double weight = 0.0;          // of all
+    double evidence_ratio = 0.0;  // of the last scan that was seen
     int explained = 0;            // scans in a row ...
     double explained_m = 0.0;     // ... and their way
     int contradicted = 0;         // scans in a row ...

@@ -217,6 +217,22 @@ TEST_F(HypothesesTest, NoneIsBelievedWhileThePoseByDeadReckoningExplainsTheScans
   EXPECT_TRUE(hypotheses.leader().is_own);
 }
 
+TEST_F(HypothesesTest, OnlyOneThatExplainsMoreEndsTheVetoOfThePoseByDeadReckoning) {
+  options.way_to_outdo_own_m = 2.0;
+  const auto is_decided_where_asked_for = [&](double evidence) {
+    options.outdoing_evidence = evidence;
+    own.start(near({6.0, 6.0, 0.0}));
+    Hypotheses hypotheses;
+    hypotheses.add(near({46.0, 6.0, 0.0}), options);
+    hypotheses.add_own(own, options);
+    for (int i = 1; i <= 8; ++i) drive(hypotheses, {46.0 + 0.5 * i, 6.0, 0.0}, 0.5);
+    EXPECT_GT(hypotheses.all().front().weight, options.sure_weight);
+    return hypotheses.is_decided(options);
+  };
+  EXPECT_TRUE(is_decided_where_asked_for(0.0));
+  EXPECT_FALSE(is_decided_where_asked_for(0.9));
+}
+
 TEST_F(HypothesesTest, OneWallThatHasMovedDoesNotRefuteTheWayHere) {
   // The second room is the first with its far wall drawn back, and so is the world's first room.
   const auto room = [](double x0, double x1) {

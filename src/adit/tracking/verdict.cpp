@@ -34,9 +34,12 @@ bool Trust::next(const FitQuality& quality, double way_m, const StatusOptions& o
 
 void Trust::note_usual(const FitQuality& quality) {
   constexpr double kMostScans = 100.0;
+  constexpr double kRecentScans = 8.0;
   scans_ = std::min(scans_ + 1.0, kMostScans);
   usual_ += (quality.evidence_ratio - usual_) / scans_;
-  usual_behind_ += (quality.behind_ratio - usual_behind_) / scans_;
+  const double recent_scans = std::min(scans_, kRecentScans);
+  recent_ += (quality.evidence_ratio - recent_) / recent_scans;
+  recent_behind_ += (quality.behind_ratio - recent_behind_) / recent_scans;
 }
 
 /// The evidence ratio of scans around here.
@@ -58,9 +61,10 @@ bool Trust::disagrees(const FitQuality& quality, const StatusOptions& options) c
 bool Trust::is_sudden(const FitQuality& quality, const StatusOptions& options) const {
   if (contradicted_) return false;
   const bool is_known = scans_ >= options.usual_scans;
-  const double usual_behind = is_known ? usual_behind_ : options.first_behind_ratio;
-  return usual(options) - quality.evidence_ratio > options.sudden_evidence_ratio &&
-         quality.behind_ratio - usual_behind > options.sudden_behind_ratio;
+  const double evidence = is_known ? recent_ : options.first_evidence_ratio;
+  const double behind = is_known ? recent_behind_ : options.first_behind_ratio;
+  return evidence - quality.evidence_ratio > options.sudden_evidence_ratio &&
+         quality.behind_ratio - behind > options.sudden_behind_ratio;
 }
 
 std::optional<Vector2d> open_direction(const Matrix3d& fix_covariance,

@@ -84,9 +84,10 @@ struct StatusOptions {
           "a scan farther than this from dead reckoning, far beyond chance, says that the vehicle "
           "is elsewhere: ambiguous until the next");
     field("sudden_evidence_ratio", self.sudden_evidence_ratio,
-          "a scan that is explained less well than is usual here by this ...");
+          "a scan that is explained less well than the last few by this ...");
     field("sudden_behind_ratio", self.sudden_behind_ratio,
-          "... and of which more than usual by this comes from behind the map's walls contradicts "
+          "... and of which more than of those, by this, comes from behind the map's walls "
+          "contradicts "
           "the pose: what stands in the way makes no beam longer");
     field("usual_scans", self.usual_scans, "what is usual is known after so many scans");
     field("first_evidence_ratio", self.first_evidence_ratio,
@@ -131,8 +132,9 @@ class Trust {
   bool disagrees(const FitQuality& quality, const StatusOptions& options) const;
 
   bool contradicted_ = false;
-  double usual_ = 0.0;         // evidence ratio while trusted, of so many scans, a sliding mean
-  double usual_behind_ = 0.0;  // the same of the returns behind the map's walls
+  double usual_ = 0.0;          // evidence ratio while trusted, of so many scans, a sliding mean
+  double recent_ = 0.0;         // of the last few of them
+  double recent_behind_ = 0.0;  // the same of the returns behind the map's walls
   double scans_ = 0.0;
   double regained_m_ = 0.0;
 };

@@ -145,6 +145,19 @@ double way_to_regain(Trust& trust, const FitQuality& quality, double step_m) {
   return way;
 }
 
+TEST(Trust, WhatWorsensScanByScanIsNotSudden) {
+  const StatusOptions options;
+  Trust trust;
+  FitQuality scan = good();
+  for (int i = 0; i < 100; ++i) EXPECT_TRUE(trust.next(scan, 0.2, options));
+  const double worst = scan.evidence_ratio - options.sudden_evidence_ratio - 0.1;
+  while (scan.evidence_ratio > worst) {  // rougher walls come into sight
+    scan.evidence_ratio -= 0.01;
+    scan.behind_ratio += 0.002;
+    EXPECT_TRUE(trust.next(scan, 0.2, options)) << scan.evidence_ratio;
+  }
+}
+
 TEST(Trust, ComesBackOnlyAfterSomeWay) {
   const StatusOptions options;
   Trust trust;
