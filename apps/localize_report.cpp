@@ -96,6 +96,7 @@ Json map_error_report(const MapError& error, const std::string& source) {
   json["offset_sigma_m"] = error.offset_sigma_m;
   json["length_m"] = error.length_m;
   json["roughness_sigma_m"] = error.roughness_sigma_m;
+  json["distortion_ratio"] = error.distortion_ratio;
   json["source"] = source;
   return json;
 }

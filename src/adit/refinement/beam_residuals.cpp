@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace adit {
 namespace {
@@ -18,19 +19,39 @@ constexpr double kBeyondReturns = 2.0;
 // Room for the walls about a beam's end; where more crowd, the buffer grows.
 constexpr std::size_t kMostNear = 256;
 
-/// How far (m) a return lies along its beam from a wall, if by less than `least`; else `least`.
-double distance_along(const WallLine& line, const Vector2d& end, const Vector2d& direction,
-                      double least) {
+/// How far (m) a return lies along its beam beyond a wall, unless the wall is not there.
+std::optional<double> miss_along(const WallLine& line, const Vector2d& end,
+                                 const Vector2d& direction) {
   constexpr double kLeastCosine = 0.1;    // a flatter beam does not tell which of two walls it met
   constexpr double kEndTolerance = 0.02;  // m; walls that are drawn to meet
   const double off = line.normal.dot(end - line.foot);
-  if (!(std::abs(off) < least)) return least;
   const double cosine = line.normal.dot(direction);
-  if (std::abs(cosine) < kLeastCosine || !(std::abs(off) < least * std::abs(cosine))) return least;
+  if (std::abs(cosine) < kLeastCosine) return std::nullopt;
   const double back = off / cosine;
   const double along = line.along.dot(end - back * direction - line.foot);
   const bool within = along > -kEndTolerance && along < line.length + kEndTolerance;
-  return within ? std::abs(back) : least;
+  return within ? std::optional(back) : std::nullopt;
+}
+
+/// The normal that points towards the scanner.
+Vector2d facing(const Vector2d& normal, const Vector2d& direction) {
+  return normal.dot(direction) < 0.0 ? normal : Vector2d(-normal);
+}
+
+/// Of the predicted range over the vehicle's pose: the laser's gradient (Censi 2007), and what
+/// turning the vehicle adds by the lever arm. `normal` points towards the scanner.
+Vector3d range_gradient(const Vector2d& direction, const Vector2d& normal, double range,
+                        const Vector2d& lever) {
+  const double across = range * cross(direction, normal) + cross(lever, normal);
+  return Vector3d(normal.x(), normal.y(), across) / -normal.dot(direction);
+}
+
+/// How far a return may lie beyond the wall that it met for all that is in doubt (m²).
+double variance_of_miss(const WallDoubt& doubt, const Vector2d& normal, const Vector2d& direction,
+                        double range, const Vector2d& lever) {
+  const double wall = doubt.wall_sigma_m / normal.dot(direction);
+  const Vector3d gradient = range_gradient(direction, normal, range, lever);
+  return wall * wall + gradient.dot(doubt.pose_covariance * gradient);
 }
 
 }  // namespace
@@ -48,6 +69,7 @@ void BeamResiduals::set_scan(const LaserScan& scan, const ScannerModel& scanner)
   walls_.resize(count);
   if (beams_.size() < count) beams_.resize(count);  // grows only
   near_.reserve(kMostNear);
+  met_.reserve(kMostNear);
   const bool even = scan.bearings.empty();
   const bool known = even && evenly_spaced_;
   evenly_spaced_ = even;
@@ -94,7 +116,8 @@ std::size_t BeamResiduals::station_count(const SweepPath& path, double spacing) 
 
 void BeamResiduals::compute(const LineMap& map, const Pose2& map_from_vehicle,
                             const SweepPath& path, const SweepCorrection& correction,
-                            const RefinementOptions& options, std::size_t stride) {
+                            const RefinementOptions& options, std::size_t stride,
+                            const WallDoubt& doubt) {
   size_ = 0;
   neighbours_.reset(map, options.neighbour_reach_m);
   unmapped_ = 0;
@@ -116,22 +139,41 @@ void BeamResiduals::compute(const LineMap& map, const Pose2& map_from_vehicle,
       station.velocity = (last.translation() - first.translation()) / (end - begin);
       station.turn_rate = angle_between(first.theta, last.theta) / (end - begin);
     }
-    look_from(map, station, map_from_vehicle.translation(), options, stride);
+    look_from(map, station, map_from_vehicle.translation(), options, stride, doubt);
   }
 }
 
-/// The wall that the beam met: the one in its way, which it misses by `least`, or a neighbour that
-/// explains the range better.
-const WallLine& BeamResiduals::wall_met(const WallLine& in_the_way, const Vector2d& end,
-                                        const Vector2d& direction, double least) {
-  const WallLine* best = &in_the_way;
+/// The wall that the beam met: the one in its way or a neighbour, the nearer the likelier. The
+/// residual is the mean over all of them by how likely they are: as long as the pose is in doubt,
+/// the nearest wall would hold it where it is.
+BeamResiduals::Meeting BeamResiduals::meet(const WallLine& in_the_way, double residual,
+                                           const Vector2d& end, const Vector2d& direction,
+                                           double variance) {
+  met_.clear();
+  met_.push_back({&in_the_way, residual, 0.0});
+  std::size_t nearest = 0;
   for (const WallLine& other : neighbours_.of(in_the_way.wall)) {
-    const double distance = distance_along(other, end, direction, least);
-    if (!(distance < least)) continue;
-    least = distance;
-    best = &other;
+    const auto miss = miss_along(other, end, direction);
+    if (!miss) continue;
+    if (std::abs(*miss) < std::abs(met_[nearest].residual)) nearest = met_.size();
+    met_.push_back({&other, *miss, 0.0});
   }
-  return *best;
+  Meeting met = met_[nearest];
+  if (met_.size() == 1 || !(variance > 0.0)) return met;
+  const double least = met.residual * met.residual;
+  double weights = 0.0;
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const Meeting& one : met_) {
+    const double square = one.residual * one.residual;
+    const double weight = std::exp(-0.5 * (square - least) / variance);
+    weights += weight;
+    sum += weight * one.residual;
+    squares += weight * square;
+  }
+  met.residual = sum / weights;
+  met.variance = std::max(0.0, squares / weights - met.residual * met.residual);
+  return met;
 }
 
 /// The wall that the beam met when the one in its way is not there: one close to its end.
@@ -142,9 +184,9 @@ bool BeamResiduals::find_wall_beyond(const LineMap& map, const Vector2d& end,
   double least = reach;
   for (const int wall : near_) {
     const WallLine line = line_of(map, wall);
-    const double distance = distance_along(line, end, direction, least);
-    if (!(distance < least)) continue;
-    least = distance;
+    const auto miss = miss_along(line, end, direction);
+    if (!miss || !(std::abs(*miss) < least)) continue;
+    least = std::abs(*miss);
     beyond_ = line;
   }
   return least < reach;
@@ -171,7 +213,8 @@ void BeamResiduals::look_up_walls(const Station& station, std::size_t stride,
 }
 
 void BeamResiduals::look_from(const LineMap& map, const Station& station, const Vector2d& vehicle,
-                              const RefinementOptions& options, std::size_t stride) {
+                              const RefinementOptions& options, std::size_t stride,
+                              const WallDoubt& doubt) {
   const double most_secant = 1.0 / std::cos(options.max_incidence_rad);
   const std::size_t count = (station.end - station.begin + stride - 1) / stride;
   const RigidTransform map_from_laser(station.laser);
@@ -207,38 +250,41 @@ void BeamResiduals::look_from(const LineMap& map, const Station& station, const 
       const double turn = station.turn_rate * lag;
       direction = (direction + turn * perpendicular(direction)) / std::sqrt(1.0 + turn * turn);
     }
-    const WallLine* met = &wall;
     double secant = 1.0 / wall.normal.dot(direction);
     double range = wall.normal.dot(wall.foot - origin) * secant;
     const double measured = has_return ? scan_->ranges[i] : range;
-    const double missed = std::abs(measured - range);
+    Meeting met{&wall, measured - range, 0.0};
+    const Vector2d lever = origin - vehicle;
     bool is_beyond = false;
-    if (missed > noise_reach_) {  // else the scanner's noise explains the range
+    if (std::abs(met.residual) > noise_reach_) {  // else the scanner's noise explains the range
       const Vector2d end = origin + measured * direction;
-      if (missed < kFarOff) met = &wall_met(wall, end, direction, missed);
-      is_beyond = looks_beyond && met == &wall && measured - range > options.neighbour_reach_m &&
-                  find_wall_beyond(map, end, direction, options.neighbour_reach_m);
-      if (is_beyond) met = &beyond_;
-      if (met != &wall) {
-        secant = 1.0 / met->normal.dot(direction);
-        range = met->normal.dot(met->foot - origin) * secant;
+      if (std::abs(met.residual) < kFarOff) {
+        met =
+            meet(wall, met.residual, end, direction,
+                 variance_of_miss(doubt, facing(wall.normal, direction), direction, range, lever));
       }
+      is_beyond = looks_beyond && met.wall == &wall && met.residual > options.neighbour_reach_m &&
+                  find_wall_beyond(map, end, direction, options.neighbour_reach_m);
+      if (is_beyond) met.wall = &beyond_;
+      if (met.wall != &wall) {
+        secant = 1.0 / met.wall->normal.dot(direction);
+        range = met.wall->normal.dot(met.wall->foot - origin) * secant;
+      }
+      if (is_beyond) met = {&beyond_, measured - range, 0.0};
     }
     if (!(std::abs(secant) < most_secant)) continue;
     BeamResidual& out = beams_[size_++];
-    out.normal = secant < 0.0 ? met->normal : Vector2d(-met->normal);
+    out.normal = facing(met.wall->normal, direction);
     out.stretch = -std::abs(secant);
     out.range = range;
-    out.residual = has_return ? measured - range : 0.0;
+    out.residual = has_return ? met.residual : 0.0;
+    out.wall_variance = met.variance;
     out.direction = direction;
     out.hit = origin + range * direction;
-    // The laser's gradient (Censi 2007), and what turning the vehicle adds by the lever arm.
-    const Vector2d lever = origin - vehicle;
-    const double across = range * cross(direction, out.normal) + cross(lever, out.normal);
-    out.gradient = Vector3d(out.normal.x(), out.normal.y(), across) * -out.stretch;
+    out.gradient = range_gradient(direction, out.normal, range, lever);
     out.tau = tau;
     out.beam = static_cast<int>(i);
-    out.wall = met->wall;
+    out.wall = met.wall->wall;
     out.has_return = has_return;
     out.is_beyond = is_beyond;
   }

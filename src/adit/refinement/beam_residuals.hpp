@@ -28,9 +28,17 @@ struct BeamResidual {
   Vector2d hit = Vector2d::Zero();        ///< where the beam meets the wall (map axes, m)
   int beam = -1;                          ///< in the scan
   int wall = -1;
+  double wall_variance = 0.0;  ///< of the residual over the walls that the beam may have met (m²)
   bool has_return = false;
   bool is_beyond =
       false;  ///< the map has another wall before this one, which the beam went through
+};
+
+/// How far off the pose and the walls may be: which of two walls that stand close a beam has met is
+/// no surer than that. Without doubt it is the nearer one.
+struct WallDoubt {
+  Matrix3d pose_covariance = Matrix3d::Zero();
+  double wall_sigma_m = 0.0;
 };
 
 /// All beams of a scan against the map: residuals and gradients at a pose of the vehicle.
@@ -47,7 +55,7 @@ class BeamResiduals {
   /// stations of its way. With a stride only every so many beams.
   void compute(const LineMap& map, const Pose2& map_from_vehicle, const SweepPath& path,
                const SweepCorrection& correction, const RefinementOptions& options,
-               std::size_t stride = 1);
+               std::size_t stride = 1, const WallDoubt& doubt = {});
 
   std::span<const BeamResidual> beams() const { return {beams_.data(), size_}; }
   /// Beams with a return where the map has nothing in range.
@@ -68,12 +76,18 @@ class BeamResiduals {
   Pose2 laser_at(const Pose2& map_from_vehicle, const SweepPath& path,
                  const SweepCorrection& correction, double tau) const;
   std::size_t station_count(const SweepPath& path, double spacing) const;
+  /// What a beam met, and how far it went beyond that (m).
+  struct Meeting {
+    const WallLine* wall = nullptr;
+    double residual = 0.0;  // mean over all walls that it may have met ...
+    double variance = 0.0;  // ... and its spread over these (m²)
+  };
   void look_from(const LineMap& map, const Station& station, const Vector2d& vehicle,
-                 const RefinementOptions& options, std::size_t stride);
+                 const RefinementOptions& options, std::size_t stride, const WallDoubt& doubt);
   void look_up_walls(const Station& station, std::size_t stride, std::span<double> ranges,
                      std::span<int> walls) const;
-  const WallLine& wall_met(const WallLine& in_the_way, const Vector2d& end,
-                           const Vector2d& direction, double least);
+  Meeting meet(const WallLine& in_the_way, double residual, const Vector2d& end,
+               const Vector2d& direction, double variance);
 
   bool find_wall_beyond(const LineMap& map, const Vector2d& end, const Vector2d& direction,
                         double reach);
@@ -100,6 +114,7 @@ class BeamResiduals {
   WallNeighbours neighbours_;
   std::vector<int> near_;  // walls about the end of a beam that went through one
   WallLine beyond_;
+  std::vector<Meeting> met_;  // walls that a beam may have met
   std::vector<double> ranges_;
   std::vector<int> walls_;
   std::vector<BeamResidual> beams_;  // the first `size_` of them

@@ -139,6 +139,31 @@ TEST(BeamResiduals, ANeighbourEndsWhereItEnds) {
   EXPECT_NEAR(beams_of(aside, map)[2].residual, 0.0, 1e-9);
 }
 
+TEST(BeamResiduals, WhichOfTwoWallsABeamMetIsNoSurerThanThePose) {
+  const LineMap map = map_of(
+      {{Vector2d(5.0, -6.0), Vector2d(5.0, 6.0)}, {Vector2d(5.2, -6.0), Vector2d(5.2, 6.0)}});
+  const LaserScan scan = star(5.15);
+  BeamResiduals residuals;
+  residuals.set_scan(scan, fine_scanner());
+  const auto straight_ahead = [&](const WallDoubt& doubt) {
+    residuals.compute(map, {}, {}, {}, {}, 1, doubt);
+    return residuals.beams().front();
+  };
+  const BeamResidual nearest = straight_ahead({});
+  EXPECT_NEAR(nearest.residual, -0.05, 1e-9);
+  EXPECT_EQ(nearest.wall_variance, 0.0);
+  // The other wall is 0.15 m off, this one 0.05 m: by exp(-(0.15² - 0.05²) / (2 sigma²)).
+  const auto expect_mixture = [](const BeamResidual& beam, double variance) {
+    const double other = std::exp(-0.5 * (0.0225 - 0.0025) / variance);
+    const double mean = (-0.05 + 0.15 * other) / (1.0 + other);
+    EXPECT_NEAR(beam.residual, mean, 1e-9);
+    EXPECT_NEAR(beam.wall_variance, 0.04 * other / ((1.0 + other) * (1.0 + other)), 1e-9);
+  };
+  expect_mixture(straight_ahead({Matrix3d::Zero(), 0.1}), 0.01);
+  const Vector3d pose(0.0064, 1.0, 1.0);  // only what lies along the beam counts
+  expect_mixture(straight_ahead({pose.asDiagonal(), 0.06}), 0.01);
+}
+
 TEST(BeamResiduals, AnotherFanOfAsManyBeamsIsAnotherFan) {
   const LineMap map = map_of({{Vector2d(5.0, -6.0), Vector2d(5.0, 6.0)}});
   BeamResiduals residuals;

@@ -9,6 +9,7 @@ namespace adit {
 namespace {
 
 constexpr double kLeastProbability = 0.5;
+constexpr double kFar = 5.0;            // m; pairs of cells farther away count ever less
 constexpr double kSameDirection = 0.9;  // cosine between the normals of one stretch
 
 // The classifier takes the largest offsets for clutter: a normal distribution that is cut off at
@@ -77,12 +78,14 @@ void MapErrorEstimator::add_beam(const BeamResidual& beam, double probability,
   cell_.squared += weight * across * across;
   cell_.gradient += weight * cosine * beam.gradient;
   cell_.beams += 1.0;
+  cell_.range += beam.range;
 }
 
 void MapErrorEstimator::close_cell(const Matrix3d& covariance) {
   if (!(cell_.weight > 0.0)) return;
   cell_.residual /= cell_.weight;
   cell_.gradient /= cell_.weight;
+  cell_.range /= cell_.beams;
   if (cell_.beams > 1.5) {
     // Scatter about the cell's mean has one degree of freedom less; the noise is worth one a beam.
     const double scatter = cell_.squared - cell_.weight * cell_.residual * cell_.residual;
@@ -97,8 +100,11 @@ void MapErrorEstimator::close_cell(const Matrix3d& covariance) {
   seen_ += 1.0;
   const std::size_t lags = std::min(run_length_, kLags - 1);
   for (std::size_t lag = 1; lag <= lags; ++lag) {
-    products_[lag] += product(run_[(run_length_ - lag) % kLags]);
+    const Cell& other = run_[(run_length_ - lag) % kLags];
+    const double covariance_seen = product(other);
+    products_[lag] += covariance_seen;
     counts_[lag] += 1.0;
+    if (lag == 1) growth_.add(cell_.range * other.range, covariance_seen, 1.0);
   }
   run_[run_length_ % kLags] = cell_;
   ++run_length_;
@@ -110,6 +116,7 @@ void MapErrorEstimator::forget(double cells) {
   const double kept = std::exp(-cells * kCell / options_.memory_metres);
   for (double& product : products_) product *= kept;
   for (double& count : counts_) count *= kept;
+  growth_.forget(kept);
   within_ *= kept;
   within_count_ *= kept;
 }
@@ -122,9 +129,48 @@ void MapErrorEstimator::settle() {
   const double shared = std::clamp(2.0 * covariance_at(1) - covariance_at(2), 0.0, total);
   const double prior = options_.prior_metres / kCell;
   const double within = std::max(0.0, within_ / (within_count_ + prior));
+  const Growth growth = this->growth();
+  const double bent = growth.growing_share() * kCutTails * shared;  // at the mean of the ranges
   error_.length_m = correlation_length(shared);
-  error_.offset_sigma_m = std::sqrt(kCutTails * shared);
+  error_.distortion_ratio = std::sqrt(bent / growth.mean_ranges());
+  error_.offset_sigma_m = std::sqrt(kCutTails * shared - bent);
   error_.roughness_sigma_m = std::sqrt(total - shared + within);
+}
+
+/// The pairs that were seen, and beside them as many as were stated that speak for no growth.
+MapErrorEstimator::Growth MapErrorEstimator::growth() const {
+  const double prior = std::max(1.0, options_.prior_metres / kCell);
+  const double mean = growth_.weight > 0.0 ? growth_.y / growth_.weight : 0.0;
+  Growth growth = growth_;
+  growth.add(0.0, mean, 0.5 * prior);
+  growth.add(2.0 * kFar * kFar, mean, 0.5 * prior);
+  return growth;
+}
+
+void MapErrorEstimator::Growth::add(double range_product, double residual_product, double times) {
+  const double nearness = 1.0 / (1.0 + range_product / (kFar * kFar));
+  const double counted = times * nearness * nearness;
+  pairs += times;
+  ranges += times * range_product;
+  weight += counted;
+  x += counted * range_product;
+  xx += counted * range_product * range_product;
+  y += counted * residual_product;
+  xy += counted * range_product * residual_product;
+}
+
+void MapErrorEstimator::Growth::forget(double kept) {
+  for (double* sum : {&pairs, &ranges, &weight, &x, &xx, &y, &xy}) *sum *= kept;
+}
+
+double MapErrorEstimator::Growth::growing_share() const {
+  constexpr double kMost = 0.9;
+  const double determinant = weight * xx - x * x;
+  if (!(determinant > 0.0)) return 0.0;
+  const double growing = (weight * xy - x * y) / determinant * mean_ranges();
+  const double steady = (xx * y - x * xy) / determinant;
+  if (!(growing > 0.0)) return 0.0;
+  return std::min(kMost, growing / (growing + std::max(0.0, steady)));
 }
 
 /// Autocovariance of the walls' offsets at so many cells' distance (m²).

@@ -15,12 +15,19 @@ namespace adit {
 ///
 /// An offset that neighbouring stretches of wall share, a stationary process along the wall whose
 /// correlation falls to 1/e within `length_m` (Ornstein-Uhlenbeck), and a roughness that no two
-/// beams share.
+/// beams share. A plan also bends: the farther a wall, the less it lies where those near the
+/// vehicle let expect it.
 struct MapError {
   double offset_sigma_m = 0.0;
   double length_m = 1.5;
   double roughness_sigma_m = 0.0;
+  double distortion_ratio = 0.0;  ///< of the offset, per metre between vehicle and wall (m/m)
 
+  /// Of the offset of a wall that is seen from so far (m).
+  double offset_sigma_at(double range) const {
+    const double bent = distortion_ratio * range;
+    return std::sqrt(offset_sigma_m * offset_sigma_m + bent * bent);
+  }
   /// Of a single point (m).
   double sigma_m() const {
     return std::sqrt(offset_sigma_m * offset_sigma_m + roughness_sigma_m * roughness_sigma_m);
@@ -81,7 +88,8 @@ class FirstMapError {
 ///
 /// Residuals across the wall are averaged over short cells; products of cells of one wall at
 /// growing distance are the autocovariance of the walls' offsets, free of the beams' noise. What
-/// the fit of the pose took out of the residuals is put back by the fit's covariance.
+/// the fit of the pose took out of the residuals is put back by the fit's covariance. How the
+/// products grow with the ranges of both cells tells the plan's distortion.
 class MapErrorEstimator {
  public:
   explicit MapErrorEstimator(const MapErrorOptions& options = {});
@@ -104,6 +112,24 @@ class MapErrorEstimator {
     double squared = 0.0;
     Vector3d gradient = Vector3d::Zero();
     double beams = 0.0;
+    double range = 0.0;
+  };
+  /// A line through products of neighbouring cells over the products of their ranges.
+  struct Growth {
+    double pairs = 0.0;
+    double ranges = 0.0;  // product of the two cells' (m²), summed over the pairs
+    // Weighted sums, x being the ranges and y the product of the residuals.
+    double weight = 0.0;
+    double x = 0.0;
+    double xx = 0.0;
+    double y = 0.0;
+    double xy = 0.0;
+
+    void add(double range_product, double residual_product, double times);
+    void forget(double kept);
+    double mean_ranges() const { return ranges / pairs; }
+    /// How much of the mean product grows with the ranges.
+    double growing_share() const;
   };
   void add_beam(const BeamResidual& beam, double probability, const ScannerModel& scanner);
   void close_cell(const Matrix3d& covariance);
@@ -111,6 +137,7 @@ class MapErrorEstimator {
   void settle();
   double covariance_at(std::size_t lag) const;
   double correlation_length(double shared) const;
+  Growth growth() const;
 
   MapErrorOptions options_;
   MapError error_;
@@ -122,6 +149,7 @@ class MapErrorEstimator {
   double seen_ = 0.0;  // cells
   std::array<double, kLags> products_{};
   std::array<double, kLags> counts_{};
+  Growth growth_;
   double within_ = 0.0;  // scatter within cells beyond the noise, weighted by beams
   double within_count_ = 0.0;
 };

@@ -63,6 +63,20 @@ std::vector<BeamResidual> room(const MapError& truth, Random& random) {
   return beams;
 }
 
+/// Looks at rooms in turn whose walls are seen from near and from far; those of a bent plan lie off
+/// by more where they are far.
+void show_near_and_far(MapErrorEstimator& estimator, int rooms, const MapError& truth,
+                       Random& random) {
+  for (int i = 0; i < rooms; ++i) {
+    const double range = random.uniform(1.0, 12.0);
+    MapError here = truth;
+    here.offset_sigma_m = truth.offset_sigma_at(range);
+    std::vector<BeamResidual> beams = room(here, random);
+    for (BeamResidual& beam : beams) beam.range = range;
+    estimator.add(beams, std::vector<double>(beams.size(), 1.0), scanner(), Matrix3d::Zero());
+  }
+}
+
 void show_rooms(MapErrorEstimator& estimator, int rooms, const MapError& truth, Random& random) {
   for (int i = 0; i < rooms; ++i) {
     const std::vector<BeamResidual> beams = room(truth, random);
@@ -97,6 +111,26 @@ TEST_P(Truths, AreLearntFromTheResiduals) {
 INSTANTIATE_TEST_SUITE_P(MapError, Truths,
                          ::testing::Values(MapError{0.15, 1.5, 0.03}, MapError{0.05, 1.0, 0.02},
                                            MapError{0.05, 2.5, 0.0}, MapError{0.3, 0.8, 0.1}));
+
+TEST(MapErrorEstimator, LearnsHowMuchAPlanBends) {
+  Random random(7);
+  const MapError truth{0.03, 1.5, 0.0, 0.006};
+  MapErrorEstimator estimator(kOptions);
+  show_near_and_far(estimator, 800, truth, random);
+  const MapError& learnt = estimator.error();
+  EXPECT_NEAR(learnt.distortion_ratio, truth.distortion_ratio, 0.2 * truth.distortion_ratio);
+  EXPECT_NEAR(learnt.offset_sigma_m, truth.offset_sigma_m, 0.25 * truth.offset_sigma_m);
+  EXPECT_NEAR(learnt.length_m, truth.length_m, 0.25 * truth.length_m);
+}
+
+TEST(MapErrorEstimator, SeesNoBendWhereThereIsNone) {
+  Random random(8);
+  const MapError truth{0.1, 1.5, 0.0};
+  MapErrorEstimator estimator(kOptions);
+  show_near_and_far(estimator, 800, truth, random);
+  EXPECT_LT(estimator.error().distortion_ratio * 6.0, 0.35 * truth.offset_sigma_m);
+  EXPECT_GT(estimator.error().offset_sigma_m, 0.9 * truth.offset_sigma_m);
+}
 
 TEST(MapErrorEstimator, LearnsThatAMapIsRight) {
   Random random(2);

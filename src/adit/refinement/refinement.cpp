@@ -87,6 +87,13 @@ void add_share(int wall, const NormalEquations<N>& equations, std::vector<WallSh
   }
 }
 
+/// Which of two walls a beam met.
+WallDoubt doubt_of(const RefinementInput& input, const Matrix3d& spread) {
+  const double noise = input.scanner.beam_sigma_m();
+  const double walls = input.map_error.sigma_m();
+  return {spread, std::sqrt(walls * walls + noise * noise)};
+}
+
 /// Dead reckoning's word on the correction. What is known is the covariance C of the whole sweep's
 /// mean motion. Between an error that is steady and a random walk lie halves whose errors are
 /// correlated, by r: each then has 2 C / (1 + r), and the two the information
@@ -123,7 +130,8 @@ const ScanFit& Refiner::refine(const RefinementInput& input, const PoseWithCovar
     ++fit_.iterations;
     fit_.pose = next_;
     fit_.correction = next_correction_;
-    residuals_.compute(input.map, fit_.pose, path, fit_.correction, options, stride);
+    residuals_.compute(input.map, fit_.pose, path, fit_.correction, options, stride,
+                       doubt_of(input, spread));
     weigh(input, spread, options);
     if (input.motion) {
       combine_moving(input.map_error, *input.motion);
@@ -188,7 +196,8 @@ Pose2 Refiner::most_likely(const RefinementInput& input, const PoseWithCovarianc
   double most = -std::numeric_limits<double>::infinity();
   const std::size_t stride = 1 + input.scan.ranges.size() / kEnoughBeams;
   for (const Pose2& pose : poses) {
-    residuals_.compute(input.map, pose, path, SweepCorrection{}, options, stride);
+    residuals_.compute(input.map, pose, path, SweepCorrection{}, options, stride,
+                       doubt_of(input, spread));
     weigh(input, spread, options);
     const Vector3d off = difference(prior.pose, pose);
     const double likelihood = log_likelihood(options) - 0.5 * off.dot(prior_information * off);
@@ -212,15 +221,17 @@ void Refiner::weigh(const RefinementInput& input, const Matrix3d& spread,
   const std::span<const BeamResidual> beams = residuals_.beams();
   noise_.resize(beams.size());
   spread_.resize(beams.size());
-  const double offset = map_error.offset_sigma_m * map_error.offset_sigma_m;
+  offset_.resize(beams.size());
   double share = 0.0;
   for (std::size_t k = 0; k < beams.size(); ++k) {
     const BeamResidual& beam = beams[k];
     const double stretch_squared = beam.stretch * beam.stretch;
     noise_[k] =
         std::max(kLeastVariance, beam_variance_stretched(input.scanner, beam.range, stretch_squared,
-                                                         map_error.roughness_sigma_m));
-    const double known = noise_[k] + stretch_squared * offset;
+                                                         map_error.roughness_sigma_m)) +
+        beam.wall_variance;
+    offset_[k] = beam.stretch * map_error.offset_sigma_at(beam.range);
+    const double known = noise_[k] + offset_[k] * offset_[k];
     const double doubt = beam.gradient.dot(spread * beam.gradient);
     spread_[k] = known + doubt;
     share += doubt / known;
@@ -257,7 +268,7 @@ void Refiner::accumulate(const MapError& map_error, std::vector<WallShareOf<N>>&
     const auto gradient = parameters_gradient<N>(beam, map_from_vehicle, fit_.correction);
     const double variance = noise_[k] / probability;
     whitener.move_to(beam.hit, beam.normal);
-    whitener.add(beam.residual, gradient, beam.stretch, variance, current.equations);
+    whitener.add(beam.residual, gradient, offset_[k], variance, current.equations);
   }
   close_wall();
 }

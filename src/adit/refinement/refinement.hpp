@@ -116,6 +116,7 @@ class Refiner {
   std::vector<BeamResidual> spare_beams_;
   std::vector<std::pair<int, double>> off_wall_;  // beams, wall by wall
   std::vector<double> noise_;                     // variance that a beam shares with no other (m²)
+  std::vector<double> offset_;  // change of its range per sigma of the wall's offset (m)
   std::vector<double> spread_;  // variance of a residual; corners count as sharp (m²)
   double last_share_ = 0.0;
   double spread_share_ = 0.0;  // of the doubt about the pose in that, on average

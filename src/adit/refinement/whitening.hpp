@@ -48,9 +48,7 @@ class OffsetWhitener {
   using Vector = Eigen::Matrix<double, N, 1>;
 
   explicit OffsetWhitener(const MapError& error)
-      : variance_(error.offset_sigma_m * error.offset_sigma_m),
-        per_metre_(1.0 / std::max(error.length_m, 1e-3)),
-        state_variance_(variance_) {}
+      : per_metre_(1.0 / std::max(error.length_m, 1e-3)) {}
 
   /// The next point that the sweep meets, `normal` towards the scanner: how much of the offset it
   /// shares with the one before. None across a corner, all of it along a wall or a smooth bend.
@@ -63,23 +61,24 @@ class OffsetWhitener {
     normal_ = normal;
     residual_ *= correlation;
     gradient_ *= correlation;
-    state_variance_ = variance_ + correlation * correlation * (state_variance_ - variance_);
+    state_variance_ = 1.0 + correlation * correlation * (state_variance_ - 1.0);
   }
 
-  /// What the beam says beyond those before it. `stretch`: change of the range per metre of offset.
-  void add(double residual, const Vector& gradient, double stretch, double variance,
+  /// What the beam says beyond those before it. `offset`: change of its range per sigma of the
+  /// wall's offset (m).
+  void add(double residual, const Vector& gradient, double offset, double variance,
            NormalEquations<N>& sum) {
-    const double gain = state_variance_ * stretch;
-    const double residual_innovation = residual - stretch * residual_;
-    double weight = 1.0 / (gain * stretch + variance);
+    const double gain = state_variance_ * offset;
+    const double residual_innovation = residual - offset * residual_;
+    double weight = 1.0 / (gain * offset + variance);
     // A beam that its neighbours gainsay counts less (Huber 1964).
     const double surprise = residual_innovation * residual_innovation * weight;
     if (surprise > kHuber * kHuber) {
-      const double inflated = (gain * stretch + variance) * std::sqrt(surprise) / kHuber;
-      variance = inflated - gain * stretch;
+      const double inflated = (gain * offset + variance) * std::sqrt(surprise) / kHuber;
+      variance = inflated - gain * offset;
       weight = 1.0 / inflated;
     }
-    const Vector gradient_innovation = gradient - stretch * gradient_;
+    const Vector gradient_innovation = gradient - offset * gradient_;
     sum.add(gradient_innovation, residual_innovation, weight);
     const double kalman = gain * weight;
     residual_ += kalman * residual_innovation;
@@ -90,9 +89,8 @@ class OffsetWhitener {
  private:
   static constexpr double kHuber = 1.8;  // 98 % efficient where all noise is normal
 
-  double variance_;
   double per_metre_;
-  double state_variance_;
+  double state_variance_ = 1.0;       // of the offset in its sigmas, after the beams so far
   double residual_ = 0.0;             // the offset as the residuals show it ...
   Vector gradient_ = Vector::Zero();  // ... and what a change of the parameters takes from it
   Vector2d hit_ = Vector2d::Constant(1e9);

@@ -31,7 +31,8 @@ Equations whitened(const std::vector<Point>& points, const MapError& error) {
   Equations sum;
   for (const Point& point : points) {
     whitener.move_to(point.hit, point.normal);
-    whitener.add(point.residual, point.gradient, point.stretch, point.variance, sum);
+    whitener.add(point.residual, point.gradient, error.offset_sigma_m * point.stretch,
+                 point.variance, sum);
   }
   return sum;
 }

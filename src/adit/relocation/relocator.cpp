@@ -44,7 +44,8 @@ FitQuality quality_in_map(const ScanFit& fit) {
 
 /// A map whose walls err by this part of what another's do.
 MapError scaled(const MapError& error, double ratio) {
-  return {ratio * error.offset_sigma_m, error.length_m, ratio * error.roughness_sigma_m};
+  return {ratio * error.offset_sigma_m, error.length_m, ratio * error.roughness_sigma_m,
+          ratio * error.distortion_ratio};
 }
 
 double error_ratio(const MapError& error, const MapError& stated) {

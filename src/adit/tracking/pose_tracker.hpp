@@ -9,7 +9,7 @@ namespace adit {
 
 /// How scans and dead reckoning are fused.
 struct TrackingOptions {
-  double bias_distance_m = 20.0;
+  double bias_distance_m = 40.0;
   double bias_lever_m = 2.0;
   double gate_chi_square = 16.27;
 
