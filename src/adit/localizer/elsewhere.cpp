@@ -51,7 +51,7 @@ void Localizer::weigh_hypotheses(const LaserScan& scan) {
     return;
   }
   const Hypotheses::Hypothesis& best = hypotheses_.all().front();
-  const bool is_own = best.is_privileged();
+  const bool is_own = best.is_own;
   const bool is_believed =
       hypotheses_.is_decided(settings_.hypotheses) && (is_own || is_confirmed_);
   is_confirmed_ = false;  // of the pose that led at this scan

@@ -105,22 +105,6 @@ void Hypotheses::weigh(const HypothesesTurn& turn, const HypothesesOptions& opti
   drop_contradicted(options);
   merge(options);
   normalise(options);
-  outdo_own(turn.way_m, options);
-}
-
-/// Counts the way for which another has been sure beside the one by dead reckoning, and has
-/// explained more.
-void Hypotheses::outdo_own(double way_m, const HypothesesOptions& options) {
-  if (all_.empty()) return;
-  const Hypothesis& first = all_.front();
-  const bool is_sure = !first.is_own && first.explained > 0 && first.weight >= options.sure_weight;
-  for (Hypothesis& hypothesis : all_) {
-    if (!hypothesis.is_own) continue;
-    const bool is_outdone =
-        is_sure && first.evidence_ratio > hypothesis.evidence_ratio + options.outdoing_evidence;
-    hypothesis.outdone_m = is_outdone ? hypothesis.outdone_m + way_m : 0.0;
-    if (hypothesis.outdone_m >= options.way_to_outdo_own_m) hypothesis.is_refuted = true;
-  }
 }
 
 void Hypotheses::note_listed(std::span<const Listed> listed, double way_m,
@@ -156,9 +140,8 @@ Witness Hypotheses::take_in(Hypothesis& hypothesis, const HypothesesTurn& turn,
       hypothesis.is_own ? turn.own_fit : refiner_.refine(turn.input, start, start, turn.refinement);
   const Testimony says = testimony_of(fit, turn.status, options.sure_evidence_ratio);
   if (says == Testimony::blind) return {};
-  hypothesis.evidence_ratio = quality_of(fit).evidence_ratio;
   if (says == Testimony::contradicts) {
-    contradict(turn, options, hypothesis);
+    contradict(turn, hypothesis);
   } else {
     judge(says, turn, hypothesis);
   }
@@ -169,29 +152,19 @@ Witness Hypotheses::take_in(Hypothesis& hypothesis, const HypothesesTurn& turn,
 }
 
 /// Counts the scans in a row that contradict a hypothesis.
-void Hypotheses::contradict(const HypothesesTurn& turn, const HypothesesOptions& options,
-                            Hypothesis& hypothesis) {
+void Hypotheses::contradict(const HypothesesTurn& turn, Hypothesis& hypothesis) {
   hypothesis.explained = 0;
   // Where one wall of the plan is wrong, a place that looks alike but for it explains scans
   // better. That alone does not refute the way here.
-  if (hypothesis.is_own && explains(quality_of(turn.own_but_a_wall), turn.status)) {
-    hypothesis.contradicted = 0;
-    hypothesis.contradicted_m = 0.0;
-    return;
-  }
-  hypothesis.contradicted_m += hypothesis.contradicted > 0 ? turn.way_m : 0.0;
-  ++hypothesis.contradicted;
-  if (hypothesis.is_own && hypothesis.contradicted_m >= options.way_to_refute_own_m) {
-    hypothesis.is_refuted = true;
-  }
+  const bool may_hold = hypothesis.is_own && explains(quality_of(turn.own_but_a_wall), turn.status);
+  hypothesis.contradicted = may_hold ? 0 : hypothesis.contradicted + 1;
 }
 
 /// Counts those that confirm one. A scan that leaves a direction open does so for all places in a
 /// drift: it neither counts nor ends the row.
 void Hypotheses::judge(Testimony says, const HypothesesTurn& turn, Hypothesis& hypothesis) {
   hypothesis.contradicted = 0;
-  hypothesis.contradicted_m = 0.0;
-  const bool is_sure = says == Testimony::sure || hypothesis.is_privileged();
+  const bool is_sure = says == Testimony::sure || hypothesis.is_own;
   if (!is_sure && says == Testimony::open) return;
   const bool goes_on = is_sure && hypothesis.explained > 0;
   hypothesis.explained_m = goes_on ? hypothesis.explained_m + turn.way_m : 0.0;
@@ -267,12 +240,11 @@ bool Hypotheses::is_decided(const HypothesesOptions& options) const {
   if (all_.empty() || all_.front().weight < options.sure_weight) return false;
   const Hypothesis& best = all_.front();
   if (best.explained < options.scans_to_confirm) return false;
-  if (best.is_privileged()) return true;
+  if (best.is_own) return true;
   // Where the plan is wrong another place may explain the scans better; not as long as the way
   // here.
   const Hypothesis* mine = own();
-  const bool own_holds =
-      mine != nullptr && mine->is_privileged() && mine->contradicted < options.scans_to_refute;
+  const bool own_holds = mine != nullptr && mine->contradicted < options.scans_to_refute;
   return !own_holds && best.explained_m >= options.way_to_confirm_m;
 }
 

@@ -21,9 +21,6 @@ struct HypothesesOptions {
   double sure_evidence_ratio = 0.75;
   double own_gain = 3.0;
   double own_way_m = 10.0;
-  double way_to_refute_own_m = 3.0;
-  double way_to_outdo_own_m = 8.0;
-  double outdoing_evidence = 0.1;
   double unlisted_lead = 9.0;
   double independent_way_m = 2.0;
   double same_place_m = 0.5;
@@ -52,15 +49,6 @@ struct HypothesesOptions {
     field("own_way_m", self.own_way_m,
           "a pose by dead reckoning that was trusted for less than this way (m) is one of the "
           "others");
-    field("way_to_refute_own_m", self.way_to_refute_own_m,
-          "and so is one that scan after scan has contradicted for so much way (m): if it explains "
-          "what is seen again, by chance perhaps");
-    field(
-        "way_to_outdo_own_m", self.way_to_outdo_own_m,
-        "or one beside which another has been sure for so much way (m): plans are wrong at places, "
-        "not all along ...");
-    field("outdoing_evidence", self.outdoing_evidence,
-          "... and explained more of every scan, by this share of it");
     field(
         "unlisted_lead", self.unlisted_lead,
         "searches that list no more than some of the poses leave room for another, until the pose "
@@ -102,19 +90,12 @@ class Hypotheses {
     PoseTracker tracker;    // with the last scan taken in
     PoseTracker predicted;  // without
     double log_odds = 0.0;
-    double weight = 0.0;          // of all
-    double evidence_ratio = 0.0;  // of the last scan that was seen
-    int explained = 0;            // scans in a row ...
-    double explained_m = 0.0;     // ... and their way
-    int contradicted = 0;         // scans in a row ...
-    double contradicted_m = 0.0;  // ... and their way
-    bool is_own = false;          // by dead reckoning
-    bool is_refuted = false;      // contradicted or outdone for long; of one by dead reckoning
-    double outdone_m = 0.0;       // way for which another has been sure; likewise
-    double unlisted_lead = 0.0;   // over poses that all searches left out (log)
-
-    /// Whether it is believed without the proof that is asked of one that a search found.
-    bool is_privileged() const { return is_own && !is_refuted; }
+    double weight = 0.0;         // of all
+    int explained = 0;           // scans in a row ...
+    double explained_m = 0.0;    // ... and their way
+    int contradicted = 0;        // scans in a row
+    bool is_own = false;         // by dead reckoning
+    double unlisted_lead = 0.0;  // over poses that all searches left out (log)
   };
 
   void clear() {
@@ -176,14 +157,12 @@ class Hypotheses {
   Witness take_in(Hypothesis& hypothesis, const HypothesesTurn& turn,
                   const HypothesesOptions& options);
   static void judge(Testimony says, const HypothesesTurn& turn, Hypothesis& hypothesis);
-  static void contradict(const HypothesesTurn& turn, const HypothesesOptions& options,
-                         Hypothesis& hypothesis);
+  static void contradict(const HypothesesTurn& turn, Hypothesis& hypothesis);
   void raise_odds(double news);
   double lead_over_first(const Retrospect& past) const;
   void remember(const HypothesesTurn& turn, const HypothesesOptions& options);
   /// The one by dead reckoning, or null.
   const Hypothesis* own() const;
-  void outdo_own(double way_m, const HypothesesOptions& options);
   void drop_contradicted(const HypothesesOptions& options);
   void merge(const HypothesesOptions& options);
   void normalise(const HypothesesOptions& options);

@@ -139,18 +139,6 @@ TEST_F(HypothesesTest, OneThatLeadsWhatManySearchesLeftOutIsComplete) {
   EXPECT_FALSE(hypotheses.leads_unlisted(options));
 }
 
-TEST_F(HypothesesTest, ALongContradictionEndsTheVetoOfThePoseByDeadReckoning) {
-  own.start(near({6.0, 6.0, 2.0}));  // no scan fits there
-  Hypotheses hypotheses;
-  hypotheses.add(near({46.0, 6.0, 0.0}), options);
-  hypotheses.add_own(own, options);
-  double x = 46.0;
-  for (int i = 0; i < 8; ++i) drive(hypotheses, {x += 0.5, 6.0, 0.0}, 0.5);
-  ASSERT_TRUE(hypotheses.leader().is_own);
-  EXPECT_TRUE(hypotheses.leader().is_refuted);
-  EXPECT_FALSE(hypotheses.leader().is_privileged());
-}
-
 TEST_F(HypothesesTest, StandingStillDecidesNothing) {
   Hypotheses hypotheses;
   hypotheses.add(near({46.0, 6.0, 0.0}), options);
@@ -215,22 +203,6 @@ TEST_F(HypothesesTest, NoneIsBelievedWhileThePoseByDeadReckoningExplainsTheScans
   EXPECT_GT(hypotheses.all().front().weight, options.sure_weight);
   EXPECT_FALSE(hypotheses.is_decided(options));
   EXPECT_TRUE(hypotheses.leader().is_own);
-}
-
-TEST_F(HypothesesTest, OnlyOneThatExplainsMoreEndsTheVetoOfThePoseByDeadReckoning) {
-  options.way_to_outdo_own_m = 2.0;
-  const auto is_decided_where_asked_for = [&](double evidence) {
-    options.outdoing_evidence = evidence;
-    own.start(near({6.0, 6.0, 0.0}));
-    Hypotheses hypotheses;
-    hypotheses.add(near({46.0, 6.0, 0.0}), options);
-    hypotheses.add_own(own, options);
-    for (int i = 1; i <= 8; ++i) drive(hypotheses, {46.0 + 0.5 * i, 6.0, 0.0}, 0.5);
-    EXPECT_GT(hypotheses.all().front().weight, options.sure_weight);
-    return hypotheses.is_decided(options);
-  };
-  EXPECT_TRUE(is_decided_where_asked_for(0.0));
-  EXPECT_FALSE(is_decided_where_asked_for(0.9));
 }
 
 TEST_F(HypothesesTest, OneWallThatHasMovedDoesNotRefuteTheWayHere) {
