@@ -155,7 +155,9 @@ struct RelocationOptions {
   double apart_m = 1.0;
   double apart_rad = radians(5.0);
   double second_look_gap = 24.0;
-  double sure_gap = 9.0;
+  double sure_gap = 11.0;
+  double lone_gap = 20.0;
+  double not_alone_evidence_ratio = 0.87;
   double sure_evidence_ratio = 0.85;
   double sure_evidence_per_gap = 0.012;
   double sure_evidence_per_through = 10.0;
@@ -236,9 +238,10 @@ struct RelocationOptions {
           "that fits more of them");
     field("sure_gap", self.sure_gap,
           "a pose is sure only where every other one is less likely by this (log) ...");
-    field("sure_evidence_ratio", self.sure_evidence_ratio,
-          "... and where it explains this much of what a scan of nothing but the map's walls "
-          "would ...");
+    field("lone_gap", self.lone_gap, "... and where one is not less likely by even this ...");
+    field("not_alone_evidence_ratio", self.not_alone_evidence_ratio,
+          "... it must explain so much of what a scan of nothing but the map's walls would ...");
+    field("sure_evidence_ratio", self.sure_evidence_ratio, "... and in any case this much ...");
     field("sure_evidence_per_gap", self.sure_evidence_per_gap,
           "... less by so much per unit by which the others are less likely ...");
     field("sure_evidence_per_through", self.sure_evidence_per_through,

@@ -303,14 +303,17 @@ void Relocator::examine_best(const RelocationQuery& query, const LikelihoodOptio
 
 /// Whether the best pose is the place, and not one that resembles it by chance. Of all places of a
 /// mine one will resemble any scan; it then explains part of it, sees through walls here and there,
-/// needs a plan that errs, and is little better than the next: together these weigh.
+/// needs a plan that errs, and is little better than the next: together these weigh. The true place
+/// may be missing among the others; one that resembles it has some of them near.
 bool Relocator::stands_alone(const MapError& stated, const RelocationOptions& options) const {
+  const double evidence = result_.poses.front().quality.evidence_ratio;
   if (result_.gap < options.sure_gap) return false;
+  if (result_.gap < options.lone_gap && evidence < options.not_alone_evidence_ratio) return false;
   const double asked =
       options.sure_evidence_ratio - options.sure_evidence_per_gap * result_.gap +
       options.sure_evidence_per_through * (result_.shares.through + result_.shares.unmapped) +
       options.sure_evidence_per_error * error_ratio(result_.map_error, stated);
-  return result_.poses.front().quality.evidence_ratio >= asked;
+  return evidence >= asked;
 }
 
 Status Relocator::verdict(const MapError& stated, const RelocationOptions& options,
