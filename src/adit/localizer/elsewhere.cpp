@@ -113,14 +113,13 @@ void Localizer::take_search() {
   bool is_news = found.verdict == Status::lost;
   const RelocationOptions searched = finder_options().relocation;
   const int most = std::min(searched.refined, searched.listed);
-  const bool is_complete = static_cast<int>(found.poses.size()) < most;
   std::vector<Hypotheses::Listed> listed;
   for (const RankedPose& pose : found.poses) {
     const PoseWithCovariance& way = since_search_.estimate();
     PoseWithCovariance here = carry({pose.pose, pose.covariance}, way.pose);
     here.covariance += turned(way.covariance, pose.pose.theta);
-    const double least = is_complete ? searched.least_weight : found.poses.back().weight;
-    listed.push_back({here.pose, std::log(pose.weight / least)});
+    const double least = found.is_cut_off ? found.poses.back().weight : searched.least_weight;
+    listed.push_back({here.pose, std::log(pose.weight / std::max(least, 1e-12))});
     if (found.verdict == Status::lost || !explains(pose.quality, settings_.status)) continue;
     if (hypotheses_.add_late(here, rules, settings_.hypotheses)) is_news = true;
   }

@@ -58,6 +58,10 @@ Retrospect DriveMemory::look_back(const PoseWithCovariance& map_from_vehicle, co
                                 kept->motion};
     const ScanFit& fit = refiner.refine(input, start, start, rules.refinement);
     const Testimony says = testimony_of(fit, rules.status, sure_evidence_ratio);
+    if (says == Testimony::blind) {
+      out.witnesses.emplace_back();
+      continue;
+    }
     out.witnesses.push_back(witness_of(fit));
     contradicted = says == Testimony::contradicts ? contradicted + 1 : 0;
     out.contradicted = std::max(out.contradicted, contradicted);
@@ -66,7 +70,7 @@ Retrospect DriveMemory::look_back(const PoseWithCovariance& map_from_vehicle, co
       ++out.explained;
       out.explained_m = way_m;
     }
-    if (says == Testimony::contradicts || says == Testimony::blind) continue;
+    if (says == Testimony::contradicts) continue;
     PoseTracker tracker;
     tracker.start(at);
     tracker.update(observation_of(fit), rules.tracking);

@@ -59,6 +59,8 @@ struct HypothesesOptions {
     field("same_place_m", self.same_place_m,
           "poses nearer to each other than this are one (m) ...");
     field("same_heading_rad", self.same_heading_rad, "... if no more turned than this (rad)");
+    field("most_carried", self.most_carried, "no more poses than this are carried");
+    DriveMemoryOptions::visit(self.memory, field);
   }
 };
 

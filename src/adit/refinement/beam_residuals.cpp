@@ -19,6 +19,9 @@ constexpr double kBeyondReturns = 2.0;
 // Room for the walls about a beam's end; where more crowd, the buffer grows.
 constexpr std::size_t kMostNear = 256;
 
+// A wall and its neighbours.
+constexpr std::size_t kMostMet = 17;
+
 /// How far (m) a return lies along its beam beyond a wall, unless the wall is not there.
 std::optional<double> miss_along(const WallLine& line, const Vector2d& end,
                                  const Vector2d& direction) {
@@ -49,9 +52,11 @@ Vector3d range_gradient(const Vector2d& direction, const Vector2d& normal, doubl
 /// How far a return may lie beyond the wall that it met for all that is in doubt (m²).
 double variance_of_miss(const WallDoubt& doubt, const Vector2d& normal, const Vector2d& direction,
                         double range, const Vector2d& lever) {
-  const double wall = doubt.wall_sigma_m / normal.dot(direction);
+  const double bent = doubt.distortion_ratio * range;
+  const double cosine = normal.dot(direction);
+  const double walls = (doubt.wall_sigma_m * doubt.wall_sigma_m + bent * bent) / (cosine * cosine);
   const Vector3d gradient = range_gradient(direction, normal, range, lever);
-  return wall * wall + gradient.dot(doubt.pose_covariance * gradient);
+  return walls + doubt.noise_m * doubt.noise_m + gradient.dot(doubt.pose_covariance * gradient);
 }
 
 }  // namespace
@@ -69,7 +74,7 @@ void BeamResiduals::set_scan(const LaserScan& scan, const ScannerModel& scanner)
   walls_.resize(count);
   if (beams_.size() < count) beams_.resize(count);  // grows only
   near_.reserve(kMostNear);
-  met_.reserve(kMostNear);
+  met_.reserve(kMostMet);
   const bool even = scan.bearings.empty();
   const bool known = even && evenly_spaced_;
   evenly_spaced_ = even;
@@ -146,11 +151,13 @@ void BeamResiduals::compute(const LineMap& map, const Pose2& map_from_vehicle,
 /// The wall that the beam met: the one in its way or a neighbour, the nearer the likelier. The
 /// residual is the mean over all of them by how likely they are: as long as the pose is in doubt,
 /// the nearest wall would hold it where it is.
-BeamResiduals::Meeting BeamResiduals::meet(const WallLine& in_the_way, double residual,
-                                           const Vector2d& end, const Vector2d& direction,
-                                           double variance) {
+BeamResiduals::Meeting BeamResiduals::meet(const WallLine& in_the_way, double measured,
+                                           double range, const Vector2d& origin,
+                                           const Vector2d& direction, const Vector2d& lever,
+                                           const WallDoubt& doubt) {
+  const Vector2d end = origin + measured * direction;
   met_.clear();
-  met_.push_back({&in_the_way, residual, 0.0});
+  met_.push_back({&in_the_way, measured - range, 0.0});
   std::size_t nearest = 0;
   for (const WallLine& other : neighbours_.of(in_the_way.wall)) {
     const auto miss = miss_along(other, end, direction);
@@ -159,7 +166,11 @@ BeamResiduals::Meeting BeamResiduals::meet(const WallLine& in_the_way, double re
     met_.push_back({&other, *miss, 0.0});
   }
   Meeting met = met_[nearest];
-  if (met_.size() == 1 || !(variance > 0.0)) return met;
+  if (met_.size() == 1) return met;
+  const Vector2d normal = facing(met.wall->normal, direction);
+  const double variance =
+      variance_of_miss(doubt, normal, direction, measured - met.residual, lever);
+  if (!(variance > 0.0)) return met;
   const double least = met.residual * met.residual;
   double weights = 0.0;
   double sum = 0.0;
@@ -259,11 +270,10 @@ void BeamResiduals::look_from(const LineMap& map, const Station& station, const 
     if (std::abs(met.residual) > noise_reach_) {  // else the scanner's noise explains the range
       const Vector2d end = origin + measured * direction;
       if (std::abs(met.residual) < kFarOff) {
-        met =
-            meet(wall, met.residual, end, direction,
-                 variance_of_miss(doubt, facing(wall.normal, direction), direction, range, lever));
+        met = meet(wall, measured, range, origin, direction, lever, doubt);
       }
-      is_beyond = looks_beyond && met.wall == &wall && met.residual > options.neighbour_reach_m &&
+      is_beyond = looks_beyond && met.wall == &wall &&
+                  measured - range > options.neighbour_reach_m &&
                   find_wall_beyond(map, end, direction, options.neighbour_reach_m);
       if (is_beyond) met.wall = &beyond_;
       if (met.wall != &wall) {
@@ -278,6 +288,7 @@ void BeamResiduals::look_from(const LineMap& map, const Station& station, const 
     out.stretch = -std::abs(secant);
     out.range = range;
     out.residual = has_return ? met.residual : 0.0;
+    out.measured = measured;
     out.wall_variance = met.variance;
     out.direction = direction;
     out.hit = origin + range * direction;

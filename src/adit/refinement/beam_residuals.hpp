@@ -19,6 +19,7 @@ namespace adit {
 /// One beam against the wall that the map has in its way.
 struct BeamResidual {
   double residual = 0.0;                  ///< measured minus predicted range (m)
+  double measured = 0.0;                  ///< range (m); the predicted one without return
   Vector3d gradient = Vector3d::Zero();   ///< of the predicted range, over the vehicle's pose
   double stretch = 0.0;                   ///< range per metre that the wall lies off: 1 / (n . d)
   double range = 0.0;                     ///< predicted (m)
@@ -39,6 +40,8 @@ struct BeamResidual {
 struct WallDoubt {
   Matrix3d pose_covariance = Matrix3d::Zero();
   double wall_sigma_m = 0.0;
+  double distortion_ratio = 0.0;  ///< of the walls, as in `MapError`
+  double noise_m = 0.0;           ///< along the beam
 };
 
 /// All beams of a scan against the map: residuals and gradients at a pose of the vehicle.
@@ -86,8 +89,8 @@ class BeamResiduals {
                  const RefinementOptions& options, std::size_t stride, const WallDoubt& doubt);
   void look_up_walls(const Station& station, std::size_t stride, std::span<double> ranges,
                      std::span<int> walls) const;
-  Meeting meet(const WallLine& in_the_way, double residual, const Vector2d& end,
-               const Vector2d& direction, double variance);
+  Meeting meet(const WallLine& in_the_way, double measured, double range, const Vector2d& origin,
+               const Vector2d& direction, const Vector2d& lever, const WallDoubt& doubt);
 
   bool find_wall_beyond(const LineMap& map, const Vector2d& end, const Vector2d& direction,
                         double reach);

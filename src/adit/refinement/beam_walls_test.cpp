@@ -159,9 +159,9 @@ TEST(BeamResiduals, WhichOfTwoWallsABeamMetIsNoSurerThanThePose) {
     EXPECT_NEAR(beam.residual, mean, 1e-9);
     EXPECT_NEAR(beam.wall_variance, 0.04 * other / ((1.0 + other) * (1.0 + other)), 1e-9);
   };
-  expect_mixture(straight_ahead({Matrix3d::Zero(), 0.1}), 0.01);
+  expect_mixture(straight_ahead({Matrix3d::Zero(), 0.06, 0.0, 0.08}), 0.01);
   const Vector3d pose(0.0064, 1.0, 1.0);  // only what lies along the beam counts
-  expect_mixture(straight_ahead({pose.asDiagonal(), 0.06}), 0.01);
+  expect_mixture(straight_ahead({pose.asDiagonal(), 0.06, 0.0, 0.0}), 0.01);
 }
 
 TEST(BeamResiduals, AnotherFanOfAsManyBeamsIsAnotherFan) {

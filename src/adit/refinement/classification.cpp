@@ -45,7 +45,7 @@ double log_other(std::span<const BeamResidual> beams, const RefinementOptions& o
   const ByPlace shares = other_shares(options);
   for (const BeamResidual& beam : beams) {
     if (!beam.has_return) continue;
-    product.multiply(of(beam, shares) / beam.range * (beam.range + beam.residual));
+    product.multiply(of(beam, shares) / beam.range * beam.measured);
   }
   return product.log();
 }

@@ -20,6 +20,7 @@ BeamResidual beam(double residual, double range = kRange, bool has_return = true
   result.normal = result.direction = result.hit = Vector2d::Zero();
   result.residual = residual;
   result.range = range;
+  result.measured = range + residual;
   result.has_return = has_return;
   return result;
 }

@@ -89,9 +89,8 @@ void add_share(int wall, const NormalEquations<N>& equations, std::vector<WallSh
 
 /// Which of two walls a beam met.
 WallDoubt doubt_of(const RefinementInput& input, const Matrix3d& spread) {
-  const double noise = input.scanner.beam_sigma_m();
-  const double walls = input.map_error.sigma_m();
-  return {spread, std::sqrt(walls * walls + noise * noise)};
+  return {spread, input.map_error.sigma_m(), input.map_error.distortion_ratio,
+          input.scanner.beam_sigma_m()};
 }
 
 /// Dead reckoning's word on the correction. What is known is the covariance C of the whole sweep's

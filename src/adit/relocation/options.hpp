@@ -155,9 +155,9 @@ struct RelocationOptions {
   double apart_m = 1.0;
   double apart_rad = radians(5.0);
   double second_look_gap = 24.0;
-  double sure_gap = 11.0;
-  double lone_gap = 20.0;
-  double not_alone_evidence_ratio = 0.87;
+  double sure_gap = 10.0;
+  double lone_gap = 18.0;
+  double not_alone_evidence_ratio = 0.86;
   double sure_evidence_ratio = 0.85;
   double sure_evidence_per_gap = 0.012;
   double sure_evidence_per_through = 10.0;

@@ -133,13 +133,15 @@ const ScanFit& Relocator::fit(const RefinementInput& input, const Pose2& pose,
 
 /// Keeps the most likely, none near a better one.
 template <class Ranked>
-static void keep_best(std::vector<Ranked>& ranked, std::size_t most,
+static bool keep_best(std::vector<Ranked>& ranked, std::size_t most,
                       const RelocationOptions& options) {
   std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
     return a.log_likelihood > b.log_likelihood;
   });
+  const std::size_t before = ranked.size();
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < ranked.size() && kept < most; ++i) {
+  std::size_t i = 0;
+  for (; i < ranked.size() && kept < most; ++i) {
     const auto begin = ranked.begin();
     const bool known =
         std::any_of(begin, begin + static_cast<std::ptrdiff_t>(kept), [&](const Ranked& better) {
@@ -148,6 +150,7 @@ static void keep_best(std::vector<Ranked>& ranked, std::size_t most,
     if (!known) ranked[kept++] = ranked[i];
   }
   ranked.resize(kept);
+  return i < before;
 }
 
 /// Fits with some of the beams, ever fewer poses. In mines that are much alike it takes the right
@@ -162,11 +165,11 @@ void Relocator::fit_coarsely(const RelocationQuery& query, const RelocationOptio
   }
   keep_best(hypotheses_, count(options.rated_again), options);
   rate_by_likeliest_error(query, kCoarseDoubt, options);
-  keep_best(hypotheses_, count(options.fitted_again), options);
+  result_.is_cut_off = keep_best(hypotheses_, count(options.fitted_again), options);
   drop_hopeless(options);
   narrow_down(query, options);
   rate_by_likeliest_error(query, kFittedDoubt, options);
-  keep_best(hypotheses_, count(options.refined), options);
+  result_.is_cut_off |= keep_best(hypotheses_, count(options.refined), options);
 }
 
 /// Fits with ever smaller errors of the plan, down to the likeliest: at once with that, a fit that
@@ -256,7 +259,8 @@ void Relocator::take_fits(const RelocationQuery& query, const MapError& error,
     ranked.quality = quality_in_map(fitted);
     result_.poses.push_back(ranked);
   }
-  keep_best(result_.poses, static_cast<std::size_t>(std::max(1, options.listed)), options);
+  const auto listed = static_cast<std::size_t>(std::max(1, options.listed));
+  result_.is_cut_off |= keep_best(result_.poses, listed, options);
 }
 
 /// Weights from the likelihoods, tempered by what of them is news.

@@ -36,6 +36,7 @@ struct RelocationResult {
   double gap = 0.0;
   BeamShares shares;           ///< at the first pose
   MapError map_error;          ///< how much the plan errs by this scan; no more than stated
+  bool is_cut_off = false;     ///< more explain the scan than were fitted or are listed
   double share_of_news = 1.0;  ///< what counts of differences of the log likelihoods
 };
 

@@ -56,8 +56,8 @@ bool Trust::disagrees(const FitQuality& quality, const StatusOptions& options) c
   return has_dropped || quality.evidence_ratio <= options.regain_evidence_ratio;
 }
 
-/// Whether the vehicle seems to have been carried off: from one scan to the next the map explains
-/// less, and rock is seen through.
+/// Whether the vehicle seems to have been carried off: a scan is explained less than the last few
+/// were, and rock is seen through.
 bool Trust::is_sudden(const FitQuality& quality, const StatusOptions& options) const {
   if (contradicted_) return false;
   const bool is_known = scans_ >= options.usual_scans;
