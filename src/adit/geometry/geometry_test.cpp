@@ -8,6 +8,7 @@
 #include "adit/geometry/pose2.hpp"
 #include "adit/geometry/result.hpp"
 #include "adit/geometry/segment.hpp"
+#include "adit/geometry/uncertain_move.hpp"
 
 namespace adit {
 namespace {
@@ -84,6 +85,45 @@ TEST(PoseWithCovariance, TheLeverArmCarriesHeadingErrorsIntoPosition) {
   const PoseWithCovariance back = carry(laser, inverse(mount));
   EXPECT_TRUE(near(back.pose, vehicle.pose));
   EXPECT_TRUE(back.covariance.isApprox(vehicle.covariance, 1e-9));
+}
+
+TEST(UncertainMove, TheWayBackErrsAsDrawnMovesDo) {
+  Matrix3d root;
+  root << 0.02, 0.0, 0.0, 0.01, 0.03, 0.0, -0.004, 0.002, 0.005;
+  const PoseWithCovariance move{{3.0, -1.5, 0.8}, root * root.transpose()};
+  const PoseWithCovariance back = inverse(move);
+  EXPECT_TRUE(near(back.pose, inverse(move.pose)));
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  Matrix3d drawn = Matrix3d::Zero();
+  constexpr int kDraws = 20000;
+  for (int i = 0; i < kDraws; ++i) {
+    const Vector3d error = root * Vector3d(normal(random), normal(random), normal(random));
+    const Pose2 real = Pose2::from_vector(move.pose.vector() + error);
+    const Vector3d off = difference(back.pose, inverse(real));
+    drawn += off * off.transpose() / kDraws;
+  }
+  EXPECT_LT((drawn - back.covariance).norm(), 0.03 * back.covariance.norm());
+  EXPECT_LT((inverse(back).covariance - move.covariance).norm(), 1e-12);
+}
+
+TEST(UncertainMove, ThereAndBackLeavesTheErrorsOfBoth) {
+  const PoseWithCovariance start{{1.0, 2.0, 0.3},
+                                 Matrix3d(Vector3d(0.01, 0.02, 1e-4).asDiagonal())};
+  const PoseWithCovariance move{{4.0, 1.0, -0.5},
+                                Matrix3d(Vector3d(0.03, 0.01, 2e-4).asDiagonal())};
+  const PoseWithCovariance there = moved_by(start, move);
+  const Pose2 back = moved_by(there, inverse(move)).pose;
+  EXPECT_TRUE(near(back, start.pose));
+  // A sure move only swings the start's error about; a sure start only turns the move's.
+  EXPECT_LT((moved_by(start, {move.pose, Matrix3d::Zero()}).covariance -
+             carry(start, move.pose).covariance)
+                .norm(),
+            1e-15);
+  EXPECT_LT((moved_by({start.pose, Matrix3d::Zero()}, move).covariance -
+             turned(move.covariance, start.pose.theta))
+                .norm(),
+            1e-15);
 }
 
 TEST(Segment, NearestPointAndDistance) {

@@ -4,21 +4,11 @@
 #include <cmath>
 #include <vector>
 
+#include "adit/geometry/uncertain_move.hpp"
 #include "adit/localizer/localizer.hpp"
 #include "adit/relocation/fit_quality.hpp"
 
 namespace adit {
-namespace {
-
-/// A covariance over (x, y, theta) in other axes.
-Matrix3d turned(const Matrix3d& covariance, double by) {
-  Matrix3d turn = Matrix3d::Identity();
-  turn.col(0).head<2>() = unit_vector(by);
-  turn.col(1).head<2>() = perpendicular(unit_vector(by));
-  return turn * covariance * turn.transpose();
-}
-
-}  // namespace
 
 PlaceFinderOptions Localizer::finder_options() const {
   RelocationOptions relocation = settings_.relocation;
@@ -41,10 +31,9 @@ void Localizer::weigh_hypotheses(const LaserScan& scan) {
   if (hypotheses_.empty()) return;
   const Stopwatch watch(timings_.search);
   const RefinementInput input{map_, scan, scanner_, map_error_.error(), motion_};
-  const ScanFit but_a_wall =
-      hypotheses_.has_own() ? refiner_.without_worst_wall(settings_.refinement) : scan_fit_;
+  constexpr std::size_t kWorstWalls = 3;
   hypotheses_.weigh({input, way_m_, settings_.refinement, settings_.tracking, settings_.status,
-                     tracker_, scan_fit_, but_a_wall},
+                     tracker_, scan_fit_, refiner_.worst_walls(kWorstWalls)},
                     settings_.hypotheses);
   if (hypotheses_.empty()) {
     give_up();
@@ -115,9 +104,8 @@ void Localizer::take_search() {
   const int most = std::min(searched.refined, searched.listed);
   std::vector<Hypotheses::Listed> listed;
   for (const RankedPose& pose : found.poses) {
-    const PoseWithCovariance& way = since_search_.estimate();
-    PoseWithCovariance here = carry({pose.pose, pose.covariance}, way.pose);
-    here.covariance += turned(way.covariance, pose.pose.theta);
+    const PoseWithCovariance here =
+        moved_by({pose.pose, pose.covariance}, since_search_.estimate());
     const double least = found.is_cut_off ? found.poses.back().weight : searched.least_weight;
     listed.push_back({here.pose, std::log(pose.weight / std::max(least, 1e-12))});
     if (found.verdict == Status::lost || !explains(pose.quality, settings_.status)) continue;
@@ -150,6 +138,7 @@ void Localizer::follow(const Hypotheses::Hypothesis& hypothesis, const Refinemen
   is_anywhere_ = false;
   rival_.reset();
   protection_.reset();
+  displacement_.reset();
   tracker_ = hypothesis.predicted;
   predicted_ = tracker_.estimate();
   predicted_laser_ = carry(predicted_, vehicle_from_laser_);

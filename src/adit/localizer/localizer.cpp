@@ -104,6 +104,7 @@ void Localizer::forget() {
   clear_ = true;
   rival_.reset();
   protection_.reset();
+  displacement_.reset();
   finder_.wait_and_drop();
   hypotheses_.clear();
   is_anywhere_ = false;

@@ -159,6 +159,7 @@ class Localizer {
   double way_m_ = 0.0;  // since the last scan, by dead reckoning
   std::optional<Rival> rival_;
   Protection protection_;
+  RecentDisplacement displacement_;
 
   // While the pose is lost.
   PlaceFinder finder_;

@@ -276,9 +276,10 @@ double Localizer::protection_radius() {
   const auto cover = [&](double apart, const Matrix3d& covariance) {
     level = std::max(level, apart + radius_of(covariance, settings_.protection.risk));
   };
-  const double displaced =
+  const double displaced = displacement_.next(
       largest_displacement(refiner_.beams(), refiner_.on_wall(), scanner_,
-                           map_error_.error().sigma_m(), settings_.displacement);
+                           map_error_.error().sigma_m(), settings_.displacement),
+      way_m_, settings_.displacement);
   if (displaced > 0.0) cover(displaced, at.covariance);
   if (rival_) {
     const PoseWithCovariance& rival = rival_->tracker.estimate();

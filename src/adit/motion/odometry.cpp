@@ -1,5 +1,7 @@
 #include "adit/motion/odometry.hpp"
 
+#include "adit/geometry/uncertain_move.hpp"
+
 namespace adit {
 
 Matrix3d move_covariance(const Pose2& from_to, const OdometryNoise& noise) {
@@ -19,16 +21,7 @@ Matrix3d move_covariance(const Pose2& from_to, const OdometryNoise& noise) {
 
 PoseWithCovariance dead_reckon(const PoseWithCovariance& map_from_vehicle, const Pose2& move,
                                const OdometryNoise& noise) {
-  const Vector2d carried = RigidTransform(map_from_vehicle.pose).direction(move.translation());
-  Matrix3d from_start = Matrix3d::Identity();
-  from_start(0, 2) = -carried.y();
-  from_start(1, 2) = carried.x();
-  Matrix3d rotation = Matrix3d::Identity();
-  const Vector2d axis = unit_vector(map_from_vehicle.pose.theta);
-  rotation.topLeftCorner<2, 2>() << axis.x(), -axis.y(), axis.y(), axis.x();
-  return {map_from_vehicle.pose * move,
-          from_start * map_from_vehicle.covariance * from_start.transpose() +
-              rotation * move_covariance(move, noise) * rotation.transpose()};
+  return moved_by(map_from_vehicle, {move, move_covariance(move, noise)});
 }
 
 }  // namespace adit

@@ -2,18 +2,9 @@
 
 #include <algorithm>
 
+#include "adit/geometry/uncertain_move.hpp"
+
 namespace adit {
-namespace {
-
-/// A covariance over (x, y, theta) in axes turned by this.
-Matrix3d turned(const Matrix3d& covariance, double by) {
-  Matrix3d turn = Matrix3d::Identity();
-  turn.col(0).head<2>() = unit_vector(by);
-  turn.col(1).head<2>() = perpendicular(unit_vector(by));
-  return turn * covariance * turn.transpose();
-}
-
-}  // namespace
 
 void DriveMemory::predict(const Pose2& move, const OdometryNoise& noise,
                           const TrackingOptions& options) {
@@ -35,16 +26,9 @@ void DriveMemory::add(const RefinementInput& input, const DriveMemoryOptions& op
   while (static_cast<int>(scans_.size()) > std::max(1, options.most_scans)) scans_.pop_front();
 }
 
-/// The pose before a move that dead reckoning knows with some error.
-PoseWithCovariance DriveMemory::before(const PoseWithCovariance& after, const Way& way) {
-  const PoseWithCovariance& moved = way.tracker.estimate();
-  PoseWithCovariance at = carry(after, inverse(moved.pose));
-  at.covariance += turned(moved.covariance, at.pose.theta);
-  return at;
-}
-
 Retrospect DriveMemory::look_back(const PoseWithCovariance& map_from_vehicle, const FitRules& rules,
-                                  double sure_evidence_ratio, Refiner& refiner) const {
+                                  double sure_evidence_ratio, Refiner& refiner,
+                                  int scans_to_refute) const {
   Retrospect out;
   PoseWithCovariance at = map_from_vehicle;
   bool goes_on = true;
@@ -52,7 +36,7 @@ Retrospect DriveMemory::look_back(const PoseWithCovariance& map_from_vehicle, co
   double way_m = 0.0;
   for (auto kept = scans_.rbegin(); kept != scans_.rend(); ++kept) {
     way_m += kept->since.metres;
-    at = before(at, kept->since);
+    at = moved_by(at, inverse(kept->since.tracker.estimate()));
     const PoseWithCovariance start = loosened(at);
     const RefinementInput input{rules.map, kept->scan, kept->scanner, kept->map_error,
                                 kept->motion};
@@ -65,6 +49,7 @@ Retrospect DriveMemory::look_back(const PoseWithCovariance& map_from_vehicle, co
     out.witnesses.push_back(witness_of(fit));
     contradicted = says == Testimony::contradicts ? contradicted + 1 : 0;
     out.contradicted = std::max(out.contradicted, contradicted);
+    if (out.contradicted >= scans_to_refute) break;
     goes_on = goes_on && (says == Testimony::sure || says == Testimony::open);
     if (goes_on && says == Testimony::sure) {
       ++out.explained;

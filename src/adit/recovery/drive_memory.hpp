@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -45,9 +46,10 @@ class DriveMemory {
   /// Keeps the scan where the last that is kept is far enough.
   void add(const RefinementInput& input, const DriveMemoryOptions& options);
 
-  /// Carries a pose of the present back from scan to scan.
+  /// Carries a pose of the present back from scan to scan, until so many in a row refute it.
   Retrospect look_back(const PoseWithCovariance& map_from_vehicle, const FitRules& rules,
-                       double sure_evidence_ratio, Refiner& refiner) const;
+                       double sure_evidence_ratio, Refiner& refiner,
+                       int scans_to_refute = std::numeric_limits<int>::max()) const;
 
  private:
   /// The way between two scans: the later one's pose in the earlier's frame.
@@ -62,8 +64,6 @@ class DriveMemory {
     std::optional<SweepPrior> motion;
     Way since;  // until the next, or the present
   };
-
-  static PoseWithCovariance before(const PoseWithCovariance& after, const Way& way);
 
   std::deque<Kept> scans_;  // the oldest first
 };

@@ -43,11 +43,12 @@ bool Hypotheses::add_late(const PoseWithCovariance& map_from_vehicle, const FitR
   if (!add(map_from_vehicle, options)) return false;
   if (!others_know) return true;
   has_new_ = had_new;
-  const auto look_back = [&](const PoseWithCovariance& pose) {
-    return memory_.look_back(pose, rules, options.sure_evidence_ratio, refiner_);
-  };
-  if (!leading_past_) leading_past_ = look_back(all_.front().tracker.estimate());
-  const Retrospect past = look_back(map_from_vehicle);
+  if (!leading_past_) {
+    leading_past_ = memory_.look_back(all_.front().tracker.estimate(), rules,
+                                      options.sure_evidence_ratio, refiner_);
+  }
+  const Retrospect past = memory_.look_back(map_from_vehicle, rules, options.sure_evidence_ratio,
+                                            refiner_, options.scans_to_refute);
   Hypothesis& added = all_.back();
   added.log_odds = all_.front().log_odds + lead_over_first(past);
   added.explained = past.explained;
@@ -141,7 +142,9 @@ Witness Hypotheses::take_in(Hypothesis& hypothesis, const HypothesesTurn& turn,
   const Testimony says = testimony_of(fit, turn.status, options.sure_evidence_ratio);
   if (says == Testimony::blind) return {};
   if (says == Testimony::contradicts) {
-    contradict(turn, hypothesis);
+    const bool may_hold = hypothesis.is_own && holds_but_for_a_wall(turn, start);
+    hypothesis.explained = 0;
+    hypothesis.contradicted = may_hold ? 0 : hypothesis.contradicted + 1;
   } else {
     judge(says, turn, hypothesis);
   }
@@ -151,17 +154,20 @@ Witness Hypotheses::take_in(Hypothesis& hypothesis, const HypothesesTurn& turn,
   return witness_of(fit);
 }
 
-/// Counts the scans in a row that contradict a hypothesis.
-void Hypotheses::contradict(const HypothesesTurn& turn, Hypothesis& hypothesis) {
-  hypothesis.explained = 0;
-  // Where one wall of the plan is wrong, a place that looks alike but for it explains scans
-  // better. That alone does not refute the way here.
-  const bool may_hold = hypothesis.is_own && explains(quality_of(turn.own_but_a_wall), turn.status);
-  hypothesis.contradicted = may_hold ? 0 : hypothesis.contradicted + 1;
+/// Where one wall of the plan is wrong, a place that looks alike but for it explains scans better.
+/// That alone does not refute the way here. The wall has drawn the fit to itself: without it the
+/// scan is fitted anew.
+bool Hypotheses::holds_but_for_a_wall(const HypothesesTurn& turn, const PoseWithCovariance& start) {
+  RefinementInput input = turn.input;
+  return std::any_of(turn.own_worst_walls.begin(), turn.own_worst_walls.end(), [&](int wall) {
+    input.missing_wall = wall;
+    const FitQuality quality = quality_of(refiner_.refine(input, start, start, turn.refinement));
+    return quality.returns >= turn.status.fewest_returns && explains(quality, turn.status);
+  });
 }
 
-/// Counts those that confirm one. A scan that leaves a direction open does so for all places in a
-/// drift: it neither counts nor ends the row.
+/// Counts the scans in a row that confirm a hypothesis. A scan that leaves a direction open does so
+/// for all places in a drift: it neither counts nor ends the row.
 void Hypotheses::judge(Testimony says, const HypothesesTurn& turn, Hypothesis& hypothesis) {
   hypothesis.contradicted = 0;
   const bool is_sure = says == Testimony::sure || hypothesis.is_own;

@@ -74,12 +74,11 @@ struct HypothesesTurn {
   const RefinementOptions& refinement;
   const TrackingOptions& tracking;
   const StatusOptions& status;
-  /// The pose by dead reckoning as it was before the scan, and the scan's fit there.
+  /// The pose by dead reckoning as it was before the scan, the scan's fit there, and the walls that
+  /// gainsay it most; of use while `has_own`.
   const PoseTracker& own;
   const ScanFit& own_fit;
-  /// The same fit if the wall that gainsays it most is not where the plan has it; of use while
-  /// `has_own`.
-  const ScanFit& own_but_a_wall;
+  std::span<const int> own_worst_walls;
 };
 
 /// Poses of which any may be the true one, carried along until motion and scans have decided.
@@ -159,7 +158,7 @@ class Hypotheses {
   Witness take_in(Hypothesis& hypothesis, const HypothesesTurn& turn,
                   const HypothesesOptions& options);
   static void judge(Testimony says, const HypothesesTurn& turn, Hypothesis& hypothesis);
-  static void contradict(const HypothesesTurn& turn, Hypothesis& hypothesis);
+  bool holds_but_for_a_wall(const HypothesesTurn& turn, const PoseWithCovariance& start);
   void raise_odds(double news);
   double lead_over_first(const Retrospect& past) const;
   void remember(const HypothesesTurn& turn, const HypothesesOptions& options);

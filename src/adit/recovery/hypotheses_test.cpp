@@ -57,8 +57,8 @@ class HypothesesTest : public ::testing::Test {
     own.predict({way_m, 0.0, 0.0}, OdometryNoise{}, tracking);
     Refiner refiner;
     const ScanFit fit = refiner.refine(input, own.estimate(), own.estimate(), refinement);
-    const ScanFit but_a_wall = refiner.without_worst_wall(refinement);
-    hypotheses.weigh({input, way_m, refinement, tracking, status, own, fit, but_a_wall}, options);
+    hypotheses.weigh({input, way_m, refinement, tracking, status, own, fit, refiner.worst_walls(3)},
+                     options);
   }
 
   LineMap map = LineMap::build(two_rooms());
@@ -224,6 +224,29 @@ TEST_F(HypothesesTest, OneWallThatHasMovedDoesNotRefuteTheWayHere) {
     drive(hypotheses, seen, 0.3);
     seen = seen * Pose2{0.3, 0.0, 0.0};
     EXPECT_FALSE(hypotheses.is_decided(options)) << i;
+  }
+  EXPECT_GT(hypotheses.all().front().weight, 0.99);
+  EXPECT_FALSE(hypotheses.all().front().is_own);
+}
+
+// Between a wall that is right and one that is not the fit comes to lie where it explains neither.
+TEST_F(HypothesesTest, AWallThatDrawsTheFitToItselfDoesNotRefuteTheWayHereEither) {
+  const auto drift = [](double x0, double width) {
+    const Vector2d a(x0, 0.0), b(x0 + 30.0, 0.0), c(x0 + 30.0, width), d(x0, width);
+    return std::vector<Segment>{{a, b}, {b, c}, {c, d}, {d, a}};
+  };
+  std::vector<Segment> plan = drift(0.0, 5.0);
+  for (const Segment& wall : drift(100.0, 6.0)) plan.push_back(wall);
+  map = LineMap::build(plan);
+  error.offset_sigma_m = 0.1;
+  own.start(near({8.0, 2.5, 0.0}));
+  Hypotheses hypotheses;
+  hypotheses.add(near({108.0, 3.0, 0.0}), options);
+  hypotheses.add_own(own, options);
+  for (int i = 1; i <= 10; ++i) {
+    drive(hypotheses, {108.0 + 0.5 * i, 3.0, 0.0}, 0.5);
+    EXPECT_FALSE(hypotheses.is_decided(options)) << i;
+    EXPECT_TRUE(hypotheses.has_own());
   }
   EXPECT_GT(hypotheses.all().front().weight, 0.99);
   EXPECT_FALSE(hypotheses.all().front().is_own);

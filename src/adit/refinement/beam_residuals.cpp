@@ -61,10 +61,11 @@ double variance_of_miss(const WallDoubt& doubt, const Vector2d& normal, const Ve
 
 }  // namespace
 
-void BeamResiduals::set_scan(const LaserScan& scan, const ScannerModel& scanner) {
+void BeamResiduals::set_scan(const LaserScan& scan, const ScannerModel& scanner, int missing_wall) {
   const std::size_t count = scan.ranges.size();
   scan_ = &scan;
   swept_map_ = nullptr;
+  missing_wall_ = missing_wall;
   max_range_ = scanner.no_return_from(scan.max_range);
   min_range_ = scanner.min_range_m;
   reach_ = std::min(max_range_, longest_return() + kBeyondReturns);
@@ -287,7 +288,8 @@ void BeamResiduals::look_from(const LineMap& map, const Station& station, const 
     out.normal = facing(met.wall->normal, direction);
     out.stretch = -std::abs(secant);
     out.range = range;
-    out.residual = has_return ? met.residual : 0.0;
+    out.has_return = has_return && met.wall->wall != missing_wall_;
+    out.residual = out.has_return ? met.residual : 0.0;
     out.measured = measured;
     out.wall_variance = met.variance;
     out.direction = direction;
@@ -296,7 +298,6 @@ void BeamResiduals::look_from(const LineMap& map, const Station& station, const 
     out.tau = tau;
     out.beam = static_cast<int>(i);
     out.wall = met.wall->wall;
-    out.has_return = has_return;
     out.is_beyond = is_beyond;
   }
 }

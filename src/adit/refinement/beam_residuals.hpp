@@ -49,8 +49,9 @@ struct WallDoubt {
 /// Keeps its buffers and the beams' directions: a second scan of the same fan allocates nothing.
 class BeamResiduals {
  public:
-  /// Takes the scan; it must stay alive while the residuals are computed.
-  void set_scan(const LaserScan& scan, const ScannerModel& scanner);
+  /// Takes the scan; it must stay alive while the residuals are computed. A beam that meets
+  /// `missing_wall` counts as one without return.
+  void set_scan(const LaserScan& scan, const ScannerModel& scanner, int missing_wall = -1);
 
   /// Every beam that should meet a wall no more than 2 m beyond the scan's longest return, not
   /// flatter than the options allow, in the order of the scan. `path` is the motion during the
@@ -108,6 +109,7 @@ class BeamResiduals {
   double max_range_ = 0.0;
   double noise_reach_ = 0.0;  // a residual that the scanner's noise explains (m)
   double min_range_ = 0.0;
+  int missing_wall_ = -1;
   SweepTiming timing_;
   double first_bearing_ = 0.0;
   double bearing_step_ = 0.0;

@@ -104,5 +104,16 @@ TEST(Displacement, BeamsWithoutReturnSayNothing) {
   EXPECT_EQ(all.displacement(), 0.0);
 }
 
+TEST(Displacement, CountsForSomeWay) {
+  DisplacementOptions options;
+  options.kept_m = 5.0;
+  RecentDisplacement recent;
+  EXPECT_EQ(recent.next(0.9, 1.0, options), 0.9);
+  EXPECT_EQ(recent.next(0.0, 4.0, options), 0.9);
+  EXPECT_EQ(recent.next(1.2, 0.5, options), 1.2);
+  EXPECT_EQ(recent.next(0.3, 5.0, options), 1.2);
+  EXPECT_EQ(recent.next(0.3, 0.5, options), 0.3);
+}
+
 }  // namespace
 }  // namespace adit

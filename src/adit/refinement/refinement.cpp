@@ -122,7 +122,7 @@ const ScanFit& Refiner::refine(const RefinementInput& input, const PoseWithCovar
   Matrix3d spread = start.covariance;
   next_correction_.middle_s = path.begin_s + 0.5 * path.span_s;
   last_share_ = std::numeric_limits<double>::infinity();
-  residuals_.set_scan(input.scan, input.scanner);
+  residuals_.set_scan(input.scan, input.scanner, input.missing_wall);
   // A few of the beams lead near the pose; all of them find it.
   std::size_t stride = 1 + input.scan.ranges.size() / kCoarseBeams;
   while (!fit_.converged && fit_.iterations < options.max_iterations) {
@@ -143,32 +143,20 @@ const ScanFit& Refiner::refine(const RefinementInput& input, const PoseWithCovar
     fit_.converged = !is_coarse && is_last(length, options);
   }
   fit_.white_information = white_information(input);
-  count(classifier_, residuals_.beams(), fit_);
+  count_beams();
   fit_.log_likelihood = log_likelihood(options);
   return fit_;
 }
 
-void Refiner::count(const BeamClassifier& classifier, std::span<const BeamResidual> beams,
-                    ScanFit& fit) const {
-  const BeamSummary summary = classifier.summary(beams);
-  fit.counts = summary.counts;
-  fit.counts.unmapped = residuals_.unmapped();
-  fit.log_evidence = classifier.log_evidence();
-  fit.expected_log_evidence = summary.expected_log_evidence;
+void Refiner::count_beams() {
+  const BeamSummary summary = classifier_.summary(residuals_.beams());
+  fit_.counts = summary.counts;
+  fit_.counts.unmapped = residuals_.unmapped();
+  fit_.log_evidence = classifier_.log_evidence();
+  fit_.expected_log_evidence = summary.expected_log_evidence;
 }
 
-ScanFit Refiner::without_worst_wall(const RefinementOptions& options) {
-  const int worst = worst_wall();
-  spare_beams_.assign(residuals_.beams().begin(), residuals_.beams().end());
-  for (BeamResidual& beam : spare_beams_) beam.has_return = beam.has_return && beam.wall != worst;
-  spare_classifier_.classify(spare_beams_, spread_, options);
-  ScanFit fit = fit_;
-  count(spare_classifier_, spare_beams_, fit);
-  return fit;
-}
-
-/// The wall that most returns should have met and did not.
-int Refiner::worst_wall() {
+std::span<const int> Refiner::worst_walls(std::size_t most) {
   off_wall_.clear();
   const std::span<const BeamResidual> beams = residuals_.beams();
   for (std::size_t k = 0; k < beams.size(); ++k) {
@@ -179,10 +167,13 @@ int Refiner::worst_wall() {
     if (known == off_wall_.end()) known = off_wall_.insert(known, {wall, 0.0});
     known->second += 1.0 - classifier_.on_wall()[k];
   }
-  const auto worst =
-      std::max_element(off_wall_.begin(), off_wall_.end(),
-                       [](const auto& a, const auto& b) { return a.second < b.second; });
-  return worst != off_wall_.end() ? worst->first : -1;
+  std::stable_sort(off_wall_.begin(), off_wall_.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  worst_walls_.clear();
+  for (const auto& [wall, beams_off] : off_wall_) {
+    if (worst_walls_.size() < most) worst_walls_.push_back(wall);
+  }
+  return worst_walls_;
 }
 
 Pose2 Refiner::most_likely(const RefinementInput& input, const PoseWithCovariance& prior,
@@ -190,7 +181,7 @@ Pose2 Refiner::most_likely(const RefinementInput& input, const PoseWithCovarianc
                            const RefinementOptions& options) {
   const Matrix3d prior_information = prior.covariance.inverse();
   const SweepPath path = input.motion ? input.motion->path : SweepPath{};
-  residuals_.set_scan(input.scan, input.scanner);
+  residuals_.set_scan(input.scan, input.scanner, input.missing_wall);
   Pose2 best = prior.pose;
   double most = -std::numeric_limits<double>::infinity();
   const std::size_t stride = 1 + input.scan.ranges.size() / kEnoughBeams;

@@ -30,6 +30,7 @@ struct RefinementInput {
   const ScannerModel& scanner;
   const MapError& map_error;
   std::optional<SweepPrior> motion;  ///< of a scanner that takes its time
+  int missing_wall = -1;             ///< beams on this one count as if nothing had come back
 };
 
 /// What one wall of the plan contributed to a fit over N parameters.
@@ -78,13 +79,12 @@ class Refiner {
                     std::span<const Pose2> poses, const Matrix3d& spread,
                     const RefinementOptions& options);
 
-  /// The last fit, judged as if the wall that gainsays it most were not in the plan: one may have
-  /// moved.
-  ScanFit without_worst_wall(const RefinementOptions& options);
-
   /// The beams of the last step and the probability of each to have met the map's wall.
   std::span<const BeamResidual> beams() const { return residuals_.beams(); }
   std::span<const double> on_wall() const { return classifier_.on_wall(); }
+  /// The walls that gainsay the last fit most, the worst first and no more than so many: those that
+  /// most returns should have met and did not.
+  std::span<const int> worst_walls(std::size_t most);
   /// The parts of the fit's information, wall by wall, over the pose. On the move what they leave
   /// open of the sweep's motion is taken out of each, and dead reckoning's part in that is no
   /// wall's.
@@ -105,17 +105,14 @@ class Refiner {
   double step(const PoseWithCovariance& prior, bool moving, const RefinementOptions& options,
               Matrix3d& spread);
   double log_likelihood(const RefinementOptions& options) const;
-  int worst_wall();
-  void count(const BeamClassifier& classifier, std::span<const BeamResidual> beams,
-             ScanFit& fit) const;
+  void count_beams();
   bool is_last(double length, const RefinementOptions& options);
 
   BeamResiduals residuals_;
   BeamClassifier classifier_;
-  BeamClassifier spare_classifier_;
-  std::vector<BeamResidual> spare_beams_;
   std::vector<std::pair<int, double>> off_wall_;  // beams, wall by wall
-  std::vector<double> noise_;                     // variance that a beam shares with no other (m²)
+  std::vector<int> worst_walls_;
+  std::vector<double> noise_;   // variance that a beam shares with no other (m²)
   std::vector<double> offset_;  // change of its range per sigma of the wall's offset (m)
   std::vector<double> spread_;  // variance of a residual; corners count as sharp (m²)
   double last_share_ = 0.0;
