@@ -8,7 +8,7 @@
 namespace adit {
 namespace {
 
-constexpr int kBoundedKeys = 74;  // that cannot be 0
+constexpr int kBoundedKeys = 86;  // that cannot be 0
 
 LoadedConfiguration loaded(std::string_view text) {
   auto read = parse_configuration(text, "c.toml");
@@ -165,6 +165,18 @@ TEST(Configuration, SomeKeysCannotBeZero) {
                            "survey_joint.pair_sigma_rad",
                            "survey_known_places.apart_m",
                            "survey_known_places.plan_sigma_m",
+                           "hypotheses.independent_way_m",
+                           "places.pitch_m",
+                           "places.finest_pitch_m",
+                           "places.enough_places",
+                           "places.most_places",
+                           "relocation.corner_sigma_m",
+                           "relocation.corner_cell_m",
+                           "relocation.corner_cell_rad",
+                           "relocation.start_m",
+                           "relocation.doubt_rad",
+                           "relocation.basin_m",
+                           "relocation.basin_rad",
                            "survey_changes.step_m",
                            "survey_walls.cell_m",
                            "survey_walls.merge_m",

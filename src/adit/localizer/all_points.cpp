@@ -111,10 +111,6 @@ void Localizer::add_rival(const ScanFit& fit, double lead) {
       lead < settings_.status.ambiguous_gain && explains(quality_of(fit), settings_.status);
 }
 
-PoseObservation Localizer::observation_of(const ScanFit& fit) const {
-  return {fit.pose, fit.score, fit.information, fit.white_information};
-}
-
 /// Lets the scan decide between the pose and its rival, who both came here by dead reckoning.
 /// Before the vehicle has gone some way from where they parted, one wall may speak for both scans.
 void Localizer::weigh_rival(const RefinementInput& input, const ScanFit& rival_fit) {

@@ -115,7 +115,6 @@ class Localizer {
   PoseWithCovariance loose(const PoseWithCovariance& prediction) const;
   void add_rival(const ScanFit& fit, double lead);
   ScanFit refine_rival(const RefinementInput& input);
-  PoseObservation observation_of(const ScanFit& fit) const;
   bool has_lost_direction(const ScanFit& fit) const;
   bool is_poor(const ScanFit& fit) const;
   void search(const RefinementInput& input, const PoseWithCovariance& first);
