@@ -21,7 +21,7 @@ struct HeadingOptions {
   int sweeps = 12;
   double given_within_rad = radians(15.0);
   double through_m = 0.5;
-  double against = 2.0;
+  double against = 4.0;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
