@@ -31,9 +31,9 @@ void Localizer::weigh_hypotheses(const LaserScan& scan) {
   if (hypotheses_.empty()) return;
   const Stopwatch watch(timings_.search);
   const RefinementInput input{map_, scan, scanner_, map_error_.error(), motion_};
-  constexpr std::size_t kWorstWalls = 3;
+  const std::size_t worst_walls = hypotheses_.has_own() ? 3 : 0;
   hypotheses_.weigh({input, way_m_, settings_.refinement, settings_.tracking, settings_.status,
-                     tracker_, scan_fit_, refiner_.worst_walls(kWorstWalls)},
+                     tracker_, scan_fit_, refiner_.worst_walls(worst_walls)},
                     settings_.hypotheses);
   if (hypotheses_.empty()) {
     give_up();

@@ -237,6 +237,10 @@ Matrix3d Localizer::shared_map_error() const {
 /// Says what was found, and whether to trust it.
 void Localizer::judge(double stamp) {
   const Stopwatch watch(timings_.tracking);
+  const Pose2& now = tracker_.estimate().pose;
+  displacement_.drive(
+      last_odometry_ ? way_m_ : (now.translation() - estimate_.pose.translation()).norm(),
+      settings_.displacement);
   estimate_ = Estimate{};
   estimate_.stamp = stamp;
   estimate_.pose = tracker_.estimate().pose;
@@ -276,10 +280,9 @@ double Localizer::protection_radius() {
   const auto cover = [&](double apart, const Matrix3d& covariance) {
     level = std::max(level, apart + radius_of(covariance, settings_.protection.risk));
   };
-  const double displaced = displacement_.next(
-      largest_displacement(refiner_.beams(), refiner_.on_wall(), scanner_,
-                           map_error_.error().sigma_m(), settings_.displacement),
-      way_m_, settings_.displacement);
+  displacement_.see(largest_displacement(refiner_.beams(), refiner_.on_wall(), scanner_,
+                                         map_error_.error().sigma_m(), settings_.displacement));
+  const double displaced = displacement_.largest();
   if (displaced > 0.0) cover(displaced, at.covariance);
   if (rival_) {
     const PoseWithCovariance& rival = rival_->tracker.estimate();

@@ -147,8 +147,6 @@ Witness Hypotheses::take_in(Hypothesis& hypothesis, const HypothesesTurn& turn,
     hypothesis.contradicted = may_hold ? 0 : hypothesis.contradicted + 1;
   } else {
     judge(says, turn, hypothesis);
-  }
-  if (hypothesis.contradicted == 0) {
     hypothesis.tracker.update(observation_of(fit), turn.tracking);
   }
   return witness_of(fit);
@@ -156,13 +154,17 @@ Witness Hypotheses::take_in(Hypothesis& hypothesis, const HypothesesTurn& turn,
 
 /// Where one wall of the plan is wrong, a place that looks alike but for it explains scans better.
 /// That alone does not refute the way here. The wall has drawn the fit to itself: without it the
-/// scan is fitted anew.
+/// scan is fitted anew. What is left must be some of the scan: in a drift of two long walls each
+/// may be wrong, and any place fits the other.
 bool Hypotheses::holds_but_for_a_wall(const HypothesesTurn& turn, const PoseWithCovariance& start) {
+  constexpr double kLeastLeft = 0.4;  // of the returns
+  const double least =
+      std::max(turn.status.fewest_returns, kLeastLeft * turn.own_fit.counts.returns());
   RefinementInput input = turn.input;
   return std::any_of(turn.own_worst_walls.begin(), turn.own_worst_walls.end(), [&](int wall) {
     input.missing_wall = wall;
     const FitQuality quality = quality_of(refiner_.refine(input, start, start, turn.refinement));
-    return quality.returns >= turn.status.fewest_returns && explains(quality, turn.status);
+    return quality.returns >= least && explains(quality, turn.status);
   });
 }
 

@@ -161,6 +161,7 @@ BeamResiduals::Meeting BeamResiduals::meet(const WallLine& in_the_way, double me
   met_.push_back({&in_the_way, measured - range, 0.0});
   std::size_t nearest = 0;
   for (const WallLine& other : neighbours_.of(in_the_way.wall)) {
+    if (other.wall == missing_wall_) continue;
     const auto miss = miss_along(other, end, direction);
     if (!miss) continue;
     if (std::abs(*miss) < std::abs(met_[nearest].residual)) nearest = met_.size();
@@ -290,7 +291,7 @@ void BeamResiduals::look_from(const LineMap& map, const Station& station, const 
     out.range = range;
     out.has_return = has_return && met.wall->wall != missing_wall_;
     out.residual = out.has_return ? met.residual : 0.0;
-    out.measured = measured;
+    out.measured = out.has_return ? measured : range;
     out.wall_variance = met.variance;
     out.direction = direction;
     out.hit = origin + range * direction;

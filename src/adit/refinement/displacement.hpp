@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <span>
 
 #include "adit/refinement/beam_residuals.hpp"
@@ -36,23 +39,29 @@ double largest_displacement(std::span<const BeamResidual> beams, std::span<const
                             const ScannerModel& scanner, double map_sigma_m,
                             const DisplacementOptions& options);
 
-/// The largest displacement of late.
+/// The largest displacement seen on the last `kept_m` of way, or a little more: the way is cut into
+/// pieces, of which each keeps its largest.
 class RecentDisplacement {
  public:
-  /// After a scan that shows so much, so much way (m) after the last.
-  double next(double displacement, double way_m, const DisplacementOptions& options) {
-    since_m_ += way_m;
-    if (displacement >= largest_ || since_m_ > options.kept_m) {
-      largest_ = displacement;
-      since_m_ = 0.0;
+  /// The vehicle has gone on by so much (m).
+  void drive(double way_m, const DisplacementOptions& options) {
+    way_m_ += way_m;
+    const double piece_m = options.kept_m / static_cast<double>(kPieces);
+    while (way_m_ > piece_m) {
+      newest_ = (newest_ + 1) % largest_.size();
+      largest_[newest_] = 0.0;
+      way_m_ = std::min(way_m_ - piece_m, options.kept_m + piece_m);  // older than all of it
     }
-    return largest_;
   }
+  void see(double displacement) { largest_[newest_] = std::max(largest_[newest_], displacement); }
+  double largest() const { return *std::max_element(largest_.begin(), largest_.end()); }
   void reset() { *this = RecentDisplacement{}; }
 
  private:
-  double largest_ = 0.0;
-  double since_m_ = 0.0;
+  static constexpr std::size_t kPieces = 32;
+  std::array<double, kPieces + 1> largest_{};  // a ring; the oldest piece leaves as a whole
+  std::size_t newest_ = 0;
+  double way_m_ = 0.0;  // in the newest
 };
 
 }  // namespace adit

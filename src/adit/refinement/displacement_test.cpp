@@ -106,13 +106,36 @@ TEST(Displacement, BeamsWithoutReturnSayNothing) {
 
 TEST(Displacement, CountsForSomeWay) {
   DisplacementOptions options;
-  options.kept_m = 5.0;
+  options.kept_m = 16.0;
   RecentDisplacement recent;
-  EXPECT_EQ(recent.next(0.9, 1.0, options), 0.9);
-  EXPECT_EQ(recent.next(0.0, 4.0, options), 0.9);
-  EXPECT_EQ(recent.next(1.2, 0.5, options), 1.2);
-  EXPECT_EQ(recent.next(0.3, 5.0, options), 1.2);
-  EXPECT_EQ(recent.next(0.3, 0.5, options), 0.3);
+  EXPECT_EQ(recent.largest(), 0.0);
+  recent.see(0.9);
+  recent.drive(15.0, options);
+  recent.see(0.5);
+  EXPECT_EQ(recent.largest(), 0.9);
+  recent.drive(2.0, options);
+  EXPECT_EQ(recent.largest(), 0.5);  // what is smaller counts as long
+  recent.drive(13.0, options);
+  EXPECT_EQ(recent.largest(), 0.5);
+  recent.drive(2.0, options);
+  EXPECT_EQ(recent.largest(), 0.0);
+}
+
+TEST(Displacement, CountsForAllOfTheWayInSmallStepsAndNotBeyondALongOne) {
+  DisplacementOptions options;
+  options.kept_m = 16.0;
+  RecentDisplacement recent;
+  recent.see(0.7);
+  for (int i = 0; i < 159; ++i) {
+    recent.drive(0.1, options);
+    recent.see(0.1);
+    EXPECT_EQ(recent.largest(), 0.7) << i;
+  }
+  for (int i = 0; i < 10; ++i) recent.drive(0.1, options);
+  EXPECT_EQ(recent.largest(), 0.1);
+  recent.see(0.7);
+  recent.drive(1e9, options);
+  EXPECT_EQ(recent.largest(), 0.0);
 }
 
 }  // namespace

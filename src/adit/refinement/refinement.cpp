@@ -36,10 +36,10 @@ constexpr double kAcceptedLength = 2.0;
 // Less likely than this to have met the wall: the beam is left out.
 constexpr double kLeastProbability = 0.01;
 
-// Of the walls' offsets, where what they say of the pose is weighed, for walls that are smoother than
-// the process that they are taken for. One whose correlation is Gaussian has 0.94 times that process'
-// amplitude at long waves, which place a pose across a drift, and up to 1.29 times at waves of 3 to 5
-// times its length, which bends show: more than none of it, as a compromise.
+// Of the walls' offsets, where what they say of the pose is weighed, for walls that are smoother
+// than the process that they are taken for. One whose correlation is Gaussian has 0.94 times that
+// process' amplitude at long waves, which place a pose across a drift, and up to 1.29 times at
+// waves of 3 to 5 times its length, which bends show; this lies between.
 constexpr double kSmoothWalls = 1.03;
 
 // Of odometry's errors in the two halves of a sweep. Wheels slip and scales are off for longer than
@@ -163,6 +163,7 @@ void Refiner::count_beams() {
 }
 
 std::span<const int> Refiner::worst_walls(std::size_t most) {
+  constexpr double kFewBeamsOff = 3.0;
   off_wall_.clear();
   const std::span<const BeamResidual> beams = residuals_.beams();
   for (std::size_t k = 0; k < beams.size(); ++k) {
@@ -173,11 +174,12 @@ std::span<const int> Refiner::worst_walls(std::size_t most) {
     if (known == off_wall_.end()) known = off_wall_.insert(known, {wall, 0.0});
     known->second += 1.0 - classifier_.on_wall()[k];
   }
-  std::stable_sort(off_wall_.begin(), off_wall_.end(),
-                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  std::sort(off_wall_.begin(), off_wall_.end(), [](const auto& a, const auto& b) {
+    return a.second != b.second ? a.second > b.second : a.first < b.first;
+  });
   worst_walls_.clear();
   for (const auto& [wall, beams_off] : off_wall_) {
-    if (worst_walls_.size() < most) worst_walls_.push_back(wall);
+    if (worst_walls_.size() < most && beams_off > kFewBeamsOff) worst_walls_.push_back(wall);
   }
   return worst_walls_;
 }

@@ -83,7 +83,7 @@ class Refiner {
   std::span<const BeamResidual> beams() const { return residuals_.beams(); }
   std::span<const double> on_wall() const { return classifier_.on_wall(); }
   /// The walls that gainsay the last fit most, the worst first and no more than so many: those that
-  /// most returns should have met and did not.
+  /// more than a few returns should have met and did not.
   std::span<const int> worst_walls(std::size_t most);
   /// The parts of the fit's information, wall by wall, over the pose. On the move what they leave
   /// open of the sweep's motion is taken out of each, and dead reckoning's part in that is no

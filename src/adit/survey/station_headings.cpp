@@ -293,7 +293,7 @@ class HeadingSearch {
   /// is rare, clutter that was seen through must not outweigh it.
   double score_of(std::size_t i, const std::vector<double>& headings, double heading) {
     const double contradicted = options_.against * contradiction_of(i, headings, heading);
-    return agreement_of(i, headings, heading - headings[i]) * std::max(0.0, 1.0 - contradicted);
+    return agreement_of(i, headings, heading - headings[i]) * std::exp(-contradicted);
   }
 
   /// Share of surfaces that one station saw and another's beams went through.

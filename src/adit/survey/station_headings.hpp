@@ -40,7 +40,7 @@ struct HeadingOptions {
     field("through_m", self.through_m,
           "a beam that ends farther than this behind what another station saw contradicts it (m)");
     field("against", self.against,
-          "how much the share of such surfaces, of 1, lessens the agreement");
+          "the share of such surfaces, times this, lessens the logarithm of the agreement");
   }
 };
 
