@@ -49,6 +49,23 @@ Result<void> check_names_differ(std::initializer_list<std::string> paths) {
   return {};
 }
 
+/// What is read stays as it is; but for the plan that `--apply` changes.
+Result<void> check_inputs_stay(const SurveyArguments& a) {
+  const auto is_same = [](const std::string& one, const std::string& other) {
+    std::error_code code;
+    return !one.empty() && !other.empty() && fs::equivalent(one, other, code);
+  };
+  for (const std::string& input : {a.log, a.poses, a.update, a.config}) {
+    for (const std::string& output : {a.output, a.trajectory, a.walls, a.report, a.picture}) {
+      const bool is_changed_plan = !a.apply.empty() && output == a.output && input == a.update;
+      if (is_same(input, output) && !is_changed_plan) {
+        return fail("an output would take the place of what is read: " + in_quotes(output));
+      }
+    }
+  }
+  return {};
+}
+
 Result<void> check_outputs(const SurveyArguments& a) {
   for (const std::string& path : {a.output, a.trajectory, a.walls, a.report, a.picture}) {
     if (const auto checked = check_folder(path); !checked) return checked;
@@ -58,6 +75,7 @@ Result<void> check_outputs(const SurveyArguments& a) {
       !checked) {
     return checked;
   }
+  if (const auto checked = check_inputs_stay(a); !checked) return checked;
   if (const auto checked = check_ending(a.walls, "--walls", {".csv"}); !checked) return checked;
   if (!a.picture.empty()) {
     if (const auto named = check_picture_name(a.picture); !named) {

@@ -824,6 +824,13 @@ survey_bad_input() {
     says 'two outputs'
     expect 1 $call -o none/e.csv
     says 'no such folder'
+    cp ring.csv plan.csv
+    expect 2 $call --update plan.csv -o plan.csv
+    says 'what is read'
+    expect 2 $call --update plan.csv --apply all --walls plan.csv -o e
+    expect 2 $call --trajectory sim/../sim/log.clf -o e
+    says 'what is read'
+    cmp ring.csv plan.csv
   }
   : >empty.clf
   printf 'ODOM 0 0 0 0 0 0 1 h 1\nODOM 1 0 0 0 0 0 2 h 2\n' >scanless.clf

@@ -107,23 +107,21 @@ TEST(UncertainMove, TheWayBackErrsAsDrawnMovesDo) {
   EXPECT_LT((inverse(back).covariance - move.covariance).norm(), 1e-12);
 }
 
-TEST(UncertainMove, ThereAndBackLeavesTheErrorsOfBoth) {
-  const PoseWithCovariance start{{1.0, 2.0, 0.3},
-                                 Matrix3d(Vector3d(0.01, 0.02, 1e-4).asDiagonal())};
-  const PoseWithCovariance move{{4.0, 1.0, -0.5},
-                                Matrix3d(Vector3d(0.03, 0.01, 2e-4).asDiagonal())};
-  const PoseWithCovariance there = moved_by(start, move);
-  const Pose2 back = moved_by(there, inverse(move)).pose;
-  EXPECT_TRUE(near(back, start.pose));
-  // A sure move only swings the start's error about; a sure start only turns the move's.
-  EXPECT_LT((moved_by(start, {move.pose, Matrix3d::Zero()}).covariance -
-             carry(start, move.pose).covariance)
-                .norm(),
-            1e-15);
-  EXPECT_LT((moved_by({start.pose, Matrix3d::Zero()}, move).covariance -
-             turned(move.covariance, start.pose.theta))
-                .norm(),
-            1e-15);
+TEST(UncertainMove, ThereAndBackLeavesTheErrorsOfAllThree) {
+  const auto diagonal = [](double x, double y, double theta) {
+    return Matrix3d(Vector3d(x, y, theta).asDiagonal());
+  };
+  const PoseWithCovariance start{{1.0, 2.0, 0.3}, diagonal(0.01, 0.02, 1e-4)};
+  const PoseWithCovariance move{{4.0, 1.0, -0.5}, diagonal(0.03, 0.01, 2e-4)};
+  const PoseWithCovariance back = moved_by(moved_by(start, move), inverse(move));
+  EXPECT_TRUE(near(back.pose, start.pose));
+  // Two moves, there and back, of which each swings where it ends about where it began: seen from
+  // the start both act through the lever of the way back.
+  const Vector2d lever = RigidTransform(start.pose).direction(-move.pose.translation());
+  Matrix3d swing = Matrix3d::Identity();
+  swing.topRightCorner<2, 1>() = perpendicular(lever);
+  const Matrix3d once = swing * turned(move.covariance, start.pose.theta) * swing.transpose();
+  EXPECT_LT((back.covariance - start.covariance - 2.0 * once).norm(), 1e-12);
 }
 
 TEST(Segment, NearestPointAndDistance) {

@@ -154,8 +154,8 @@ Witness Hypotheses::take_in(Hypothesis& hypothesis, const HypothesesTurn& turn,
 
 /// Where one wall of the plan is wrong, a place that looks alike but for it explains scans better.
 /// That alone does not refute the way here. The wall has drawn the fit to itself: without it the
-/// scan is fitted anew. What is left must be some of the scan: in a drift of two long walls each
-/// may be wrong, and any place fits the other.
+/// scan is fitted anew. What is left must be some of the scan: where one wall gave nearly all of
+/// it, any place fits the rest.
 bool Hypotheses::holds_but_for_a_wall(const HypothesesTurn& turn, const PoseWithCovariance& start) {
   constexpr double kLeastLeft = 0.4;  // of the returns
   const double least =

@@ -329,7 +329,8 @@ Status Relocator::verdict(const MapError& stated, const RelocationOptions& optio
   }
   double rivals = 0.0;
   for (const RankedPose& pose : result_.poses) {
-    if (!is_near(best.pose, pose.pose, options.apart_m, options.apart_rad)) rivals += pose.weight;
+    // At one place, but turned by more than what would have become one: no less a rival.
+    if (!is_near(best.pose, pose.pose, options.apart_m, options.merge_rad)) rivals += pose.weight;
   }
   if (rivals > options.rival_weight) return Status::ambiguous;
   if (!stands_alone(stated, options)) return Status::ambiguous;
