@@ -15,7 +15,7 @@ struct DisplacementOptions {
   double least_length_m = 1.5;
   double most_m = 2.5;
   double roughness_ratio = 1.5;
-  double kept_m = 16.0;
+  double kept_m = 14.0;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
