@@ -68,15 +68,14 @@ Result<void> check_inputs_stay(const SurveyArguments& a) {
 
 Result<void> check_outputs(const SurveyArguments& a) {
   for (const std::string& path : {a.output, a.trajectory, a.walls, a.report, a.picture}) {
-    if (const auto checked = check_folder(path); !checked) return checked;
+    if (auto checked = check_folder(path); !checked) return checked;
   }
-  if (const auto checked =
-          check_names_differ({a.output, a.trajectory, a.walls, a.report, a.picture});
+  if (auto checked = check_names_differ({a.output, a.trajectory, a.walls, a.report, a.picture});
       !checked) {
     return checked;
   }
-  if (const auto checked = check_inputs_stay(a); !checked) return checked;
-  if (const auto checked = check_ending(a.walls, "--walls", {".csv"}); !checked) return checked;
+  if (auto checked = check_inputs_stay(a); !checked) return checked;
+  if (auto checked = check_ending(a.walls, "--walls", {".csv"}); !checked) return checked;
   if (!a.picture.empty()) {
     if (const auto named = check_picture_name(a.picture); !named) {
       return fail(to_string(named.error()));
@@ -140,7 +139,7 @@ Result<SurveyCall> survey_call(const SurveyArguments& arguments) {
       call.changes = std::move(*numbers);
     }
   }
-  if (const auto checked = check_outputs(arguments); !checked) {
+  if (auto checked = check_outputs(arguments); !checked) {
     return tl::unexpected(checked.error());
   }
   return call;

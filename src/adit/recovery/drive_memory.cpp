@@ -34,12 +34,12 @@ Retrospect DriveMemory::look_back(const PoseWithCovariance& map_from_vehicle, co
   bool goes_on = true;
   int contradicted = 0;
   double way_m = 0.0;
-  for (auto kept = scans_.rbegin(); kept != scans_.rend(); ++kept) {
-    way_m += kept->since.metres;
-    at = moved_by(at, inverse(kept->since.tracker.estimate()));
+  for (std::size_t i = scans_.size(); i-- > 0;) {
+    const Kept& kept = scans_[i];
+    way_m += kept.since.metres;
+    at = moved_by(at, inverse(kept.since.tracker.estimate()));
     const PoseWithCovariance start = loosened(at);
-    const RefinementInput input{rules.map, kept->scan, kept->scanner, kept->map_error,
-                                kept->motion};
+    const RefinementInput input{rules.map, kept.scan, kept.scanner, kept.map_error, kept.motion};
     const ScanFit& fit = refiner.refine(input, start, start, rules.refinement);
     const Testimony says = testimony_of(fit, rules.status, sure_evidence_ratio);
     if (says == Testimony::blind) {

@@ -165,6 +165,13 @@ struct RelocationOptions {
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
+    visit_search(self, field);
+    visit_fits(self, field);
+  }
+
+ private:
+  template <class Self, class Field>
+  static void visit_search(Self& self, Field& field) {
     field("shorter_cap", self.shorter_cap,
           "most that a bearing speaks against a place where the scan is shorter than the plan: "
           "something may stand there (steps of the range code, at most 15)");
@@ -206,6 +213,10 @@ struct RelocationOptions {
     field("agreement_per_step", self.agreement_per_step,
           "so much agreement makes up for one step of the range code, the bearings' mean, before "
           "poses are moved on");
+  }
+
+  template <class Self, class Field>
+  static void visit_fits(Self& self, Field& field) {
     field("rated_again", self.rated_again,
           "of so many fits the likelihood is looked at, each with the error of the plan that suits "
           "it best");

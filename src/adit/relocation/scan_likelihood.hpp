@@ -78,7 +78,10 @@ class ScanLikelihood {
   };
   /// What a beam may meet: the map's wall, something else, a wall of the map behind one that is
   /// gone.
-  enum Met : std::size_t { kWall, kOther, kBeyond, kMets };
+  static constexpr std::size_t kWall = 0;
+  static constexpr std::size_t kOther = 1;
+  static constexpr std::size_t kBeyond = 2;
+  static constexpr std::size_t kMets = 3;
   using Densities = std::array<double, kMets>;
   /// The offset of the wall that the last beams met, away from the scanner.
   struct Offset {
