@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "adit/visibility/visibility.hpp"
+#include "support/recovery_scene.hpp"
 
 namespace adit {
 namespace {
@@ -23,25 +23,9 @@ std::vector<Segment> rooms() {
   return plan;
 }
 
-class DriveMemoryTest : public ::testing::Test {
+class DriveMemoryTest : public RecoveryScene {
  protected:
-  DriveMemoryTest() {
-    scanner.range_sigma_m = 0.02;
-    scanner.max_range_m = 40.0;
-    error.offset_sigma_m = 0.02;
-  }
-
-  LaserScan scan_from(const Pose2& pose) const {
-    LaserScan scan;
-    scan.first_bearing = -kPi;
-    scan.bearing_step = kTwoPi / 360.0;
-    scan.max_range = scanner.max_range_m;
-    scan.ranges.resize(360);
-    Visibility visibility;
-    visibility.sweep(map, pose.translation(), scan.max_range);
-    visibility.ranges(pose.theta + scan.first_bearing, scan.bearing_step, scan.ranges);
-    return scan;
-  }
+  DriveMemoryTest() : RecoveryScene(rooms()) {}
 
   /// Drives from the pose and keeps what is seen; afterwards `at` is where the vehicle stands.
   void drive(DriveMemory& memory, const Pose2& from, int steps, double step_m) {
@@ -55,17 +39,10 @@ class DriveMemoryTest : public ::testing::Test {
   }
 
   Retrospect look_back(const DriveMemory& memory, const Pose2& pose, int scans_to_refute = 100) {
-    const PoseWithCovariance now{pose, Vector3d(0.01, 0.01, 0.001).asDiagonal()};
-    return memory.look_back(now, {map, refinement, tracking, status}, 0.75, refiner,
+    return memory.look_back(near(pose), {map, refinement, tracking, status}, 0.75, refiner,
                             scans_to_refute);
   }
 
-  LineMap map = LineMap::build(rooms());
-  ScannerModel scanner;
-  MapError error;
-  RefinementOptions refinement;
-  TrackingOptions tracking;
-  StatusOptions status;
   DriveMemoryOptions options;
   Refiner refiner;
   Pose2 at;

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "adit/visibility/visibility.hpp"
+#include "support/recovery_scene.hpp"
 
 namespace adit {
 namespace {
@@ -26,29 +26,9 @@ std::vector<Segment> two_rooms() {
   return plan;
 }
 
-class HypothesesTest : public ::testing::Test {
+class HypothesesTest : public RecoveryScene {
  protected:
-  HypothesesTest() {
-    scanner.range_sigma_m = 0.02;
-    scanner.max_range_m = 40.0;
-    error.offset_sigma_m = 0.02;
-  }
-
-  LaserScan scan_from(const Pose2& pose) const {
-    LaserScan scan;
-    scan.first_bearing = -kPi;
-    scan.bearing_step = kTwoPi / 360.0;
-    scan.max_range = scanner.max_range_m;
-    scan.ranges.resize(360);
-    Visibility visibility;
-    visibility.sweep(map, pose.translation(), scan.max_range);
-    visibility.ranges(pose.theta + scan.first_bearing, scan.bearing_step, scan.ranges);
-    return scan;
-  }
-
-  static PoseWithCovariance near(const Pose2& pose) {
-    return {pose, Vector3d(0.01, 0.01, 0.001).asDiagonal()};
-  }
+  HypothesesTest() : RecoveryScene(two_rooms()) {}
 
   void drive(Hypotheses& hypotheses, const Pose2& truth, double way_m) {
     hypotheses.predict({way_m, 0.0, 0.0}, OdometryNoise{}, tracking);
@@ -63,12 +43,6 @@ class HypothesesTest : public ::testing::Test {
         options);
   }
 
-  LineMap map = LineMap::build(two_rooms());
-  ScannerModel scanner;
-  MapError error;
-  RefinementOptions refinement;
-  TrackingOptions tracking;
-  StatusOptions status;
   HypothesesOptions options;
   PoseTracker own;  // the pose by dead reckoning
   Testimony own_says = Testimony::blind;
