@@ -61,6 +61,32 @@ TEST(BeamResiduals, ABeamWithoutReturnIsThereAndSaysNothing) {
   }
 }
 
+TEST(BeamResiduals, BeamsOnAMissingWallCountAsWithoutReturn) {
+  // The second stands close behind the first's lower half: a neighbour that a beam may have met.
+  const LineMap map = map_of({{Vector2d(5.0, -20.0), Vector2d(5.0, 20.0)},
+                              {Vector2d(-4.0, -20.0), Vector2d(-4.0, 20.0)},
+                              {Vector2d(5.2, -20.0), Vector2d(5.2, 0.0)}});
+  const LaserScan scan = star(5.0);
+  const int ahead = beams_of(scan, map).front().wall;
+  BeamResiduals residuals;
+  residuals.set_scan(scan, fine_scanner(), ahead);
+  residuals.compute(map, {}, {}, {}, {});
+  int missing = 0;
+  int others = 0;
+  for (const BeamResidual& beam : residuals.beams()) {
+    EXPECT_EQ(beam.has_return, beam.wall != ahead) << beam.beam;
+    (beam.has_return ? others : missing) += 1;
+    if (beam.has_return) continue;
+    EXPECT_EQ(beam.residual, 0.0);
+    EXPECT_EQ(beam.measured, beam.range);
+  }
+  EXPECT_GT(missing, 5);
+  EXPECT_GT(others, 5);
+  residuals.set_scan(scan, fine_scanner());  // and not the next scan's
+  residuals.compute(map, {}, {}, {}, {});
+  for (const BeamResidual& beam : residuals.beams()) EXPECT_TRUE(beam.has_return);
+}
+
 TEST(BeamResiduals, ReturnsWhereTheMapHasNothingAreCounted) {
   const LineMap map = map_of({{Vector2d(5.0, -6.0), Vector2d(5.0, 6.0)}});
   LaserScan scan = star(7.0);
