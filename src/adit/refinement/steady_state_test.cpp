@@ -55,6 +55,7 @@ class Drive {
         refiner_.most_likely(input, prior, lattice.poses(), lattice.spread(), {}),
         lattice.spread()};
     refiner_.refine(input, prior, start, {});
+    refiner_.worst_walls(3);
     error_.add(refiner_.beams(), refiner_.on_wall(), scanner, prior.covariance);
   }
 
