@@ -103,6 +103,24 @@ Relations relate(const LoopScene& scene, const ChainDrift& chain, std::span<cons
   return out;
 }
 
+/// Takes out the candidates that too few others support, until all that are left support each
+/// other: what is dropped supports nothing.
+void drop_unsupported(const Relations& relations, std::size_t candidates, int least,
+                      std::vector<char>& joined) {
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (std::size_t row = 0; row < candidates; ++row) {
+      if (joined[row] == 0) continue;
+      const auto& supporters = relations.supporters[row];
+      const auto support = std::count_if(supporters.begin(), supporters.end(),
+                                         [&](std::size_t other) { return joined[other] != 0; });
+      if (support >= least) continue;
+      joined[row] = 0;
+      changed = true;
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Closure> consistent_set(const LoopScene& scene, std::span<const Closure> candidates,
@@ -130,12 +148,10 @@ std::vector<Closure> consistent_set(const LoopScene& scene, std::span<const Clos
       joined[row] = std::none_of(opponents.begin(), opponents.end(), has_joined);
     }
   }
+  drop_unsupported(relations, candidates.size(), options.least_support, joined);
   std::vector<Closure> accepted;
   for (const std::size_t row : rows) {
-    if (!is_candidate(row) || joined[row] == 0) continue;
-    const auto& supporters = relations.supporters[row];
-    const auto support = std::count_if(supporters.begin(), supporters.end(), has_joined);
-    if (support >= options.least_support) accepted.push_back(closures[row]);
+    if (is_candidate(row) && joined[row] != 0) accepted.push_back(closures[row]);
   }
   return accepted;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "adit/map/line_map.hpp"
 #include "adit/visibility/visibility.hpp"
@@ -70,6 +72,7 @@ class StationSurvey {
       const Vector2d& p = given_[i].position;
       survey_.scans[i].map_from_vehicle = {p.x(), p.y(),
                                            wrap_angle(headings[station].heading_rad + turns_[i])};
+      keep_near_given(given_[i].heading, survey_.scans[i].map_from_vehicle.theta);
     }
     make_walls();
     report(0.7);
@@ -98,7 +101,7 @@ class StationSurvey {
         stations.push_back({given_[i].position, {}, 0, true});
         const Vector2d eye = given_[i].scan.vehicle_from_laser.translation();
         views_.push_back(
-            {given_[i].position, given_[i].heading, {}, StationSight(eye), walls_.sure_range_m});
+            {given_[i].position, std::nullopt, {}, StationSight(eye), walls_.sure_range_m});
       }
       ++stations[static_cast<std::size_t>(station)].scans;
       survey_.scans.push_back({i, station, {}, {}});
@@ -125,6 +128,31 @@ class StationSurvey {
     return thin_points(points, 0.5 * options_.search.point_spacing_m);
   }
 
+  /// Turns of a scan from the first of its station: all, or those that given headings leave.
+  std::pair<double, double> turns_to_try(std::size_t first, std::size_t scan) const {
+    const double reach = options_.turn_within_station_rad;
+    const auto& a = given_[first].heading;
+    const auto& b = given_[scan].heading;
+    if (!a || !b) return {-reach, reach};
+    const double middle = angle_between(*a, *b);
+    const double within = std::min(reach, 2.0 * options_.search.given_within_rad);
+    return {middle - within, middle + within};
+  }
+
+  /// What the headings given for its scans say of a station's, on average.
+  std::optional<double> given_heading(std::span<const std::size_t> scans) const {
+    const std::optional<double>& first = given_[scans.front()].heading;
+    if (!first) return std::nullopt;
+    double sum = 0.0;
+    double count = 0.0;
+    for (const std::size_t scan : scans) {
+      if (!given_[scan].heading) continue;
+      sum += angle_between(*first, *given_[scan].heading - turns_[scan]);
+      count += 1.0;
+    }
+    return *first + sum / count;
+  }
+
   /// Turns each scan onto the first of its station, and gathers their points.
   void align_within_stations() {
     turns_.assign(given_.size(), 0.0);
@@ -140,9 +168,9 @@ class StationSurvey {
       for (std::size_t k = 1; k < scans_of[station].size(); ++k) {
         const std::size_t scan = scans_of[station][k];
         const std::vector<StationPoint> points = points_of(scan);
-        const double reach = options_.turn_within_station_rad;
+        const auto [from, to] = turns_to_try(scans_of[station].front(), scan);
         double turn = find_turn(thin_points(points, 2.0 * options_.search.point_spacing_m), field,
-                                -reach, reach, kTurnStep);
+                                from, to, kTurnStep);
         turn = find_turn(points, field, turn - kTurnStep, turn + kTurnStep, kFineTurn);
         turns_[scan] = turn;
         view.sight.add(given_[scan].scan, turn, scanner_);
@@ -153,7 +181,15 @@ class StationSurvey {
       }
       view.points = thin_points(view.points, 0.5 * options_.search.point_spacing_m);
       view.sight.finish();
+      view.heading = given_heading(scans_of[station]);
     }
+  }
+
+  /// No farther from a heading that is given than it may err.
+  void keep_near_given(const std::optional<double>& given, double& theta) const {
+    if (!given) return;
+    const double within = options_.search.given_within_rad;
+    theta = wrap_angle(*given + std::clamp(angle_between(*given, theta), -within, within));
   }
 
   void make_walls() {
@@ -187,6 +223,7 @@ class StationSurvey {
       SurveyedScan& found = survey_.scans[i];
       found.map_from_vehicle.theta = likelier_heading(map, i);
       turn_onto(map, scan, found.map_from_vehicle);
+      keep_near_given(given_[i].heading, found.map_from_vehicle.theta);
       const std::vector<double> ranges = ranges_to_walls(map, scan, found.map_from_vehicle);
       found.tilt = estimate_tilt(scan, ranges, options_.tilt);
       level_[i] = level_scan(scan, ranges, found.tilt, options_.tilt, scanner_);

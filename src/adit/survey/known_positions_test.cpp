@@ -108,6 +108,22 @@ TEST(SurveyKnownPositions, KeepsNearTheHeadingsThatAreGiven) {
   expect_headings(stations, *survey, radians(0.5));
 }
 
+TEST(SurveyKnownPositions, LeavesNoGivenHeadingByMoreThanItMayErr) {
+  Stations stations = stations_in_a_panel();
+  for (std::size_t i = 0; i < stations.scans.size(); ++i) {
+    const double error = i % 5 == 0 ? 0.5 : 0.05;  // more than it may in every fifth
+    stations.scans[i].heading = wrap_angle(stations.headings[i] + error);
+  }
+  const KnownPositionsOptions options;
+  const auto survey = survey_known_positions(stations.scans, sick().model, options);
+  ASSERT_TRUE(survey.has_value());
+  for (std::size_t i = 0; i < stations.scans.size(); ++i) {
+    EXPECT_LE(std::abs(angle_between(survey->scans[i].map_from_vehicle.theta,
+                                     *stations.scans[i].heading)),
+              options.search.given_within_rad + 1e-9);
+  }
+}
+
 /// Stations round a gallery that looks alike forwards and backwards, by a scanner that does not
 /// look behind itself.
 Stations stations_round_a_ring() {
@@ -161,6 +177,27 @@ TEST(SurveyKnownPositions, TakesNoStationForReversedInAGalleryThatLooksAlikeBoth
     expect_headings(stations, *survey, radians(1.0));
     EXPECT_GT(length_near_truth(stations, survey->walls, 0.1), 110.0);
   }
+}
+
+TEST(SurveyKnownPositions, IsToldForwardsFromBackwardsByTheHeadingsThatAreGiven) {
+  Stations stations = stations_round_a_ring();
+  KnownPositionsOptions options;  // nothing else tells them apart
+  options.search.against = 0.0;
+  options.rounds = 0;
+  const auto count_reversed = [&] {
+    const auto survey = survey_known_positions(stations.scans, sick().model, options);
+    std::size_t count = 0;
+    for (std::size_t i = 0; survey && i < stations.headings.size(); ++i) {
+      const double theta = survey->scans[i].map_from_vehicle.theta;
+      count += std::abs(angle_between(theta, stations.headings[i])) > radians(90.0) ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_GT(count_reversed(), 0u);
+  for (std::size_t i = 0; i < stations.scans.size(); ++i) {
+    stations.scans[i].heading = stations.headings[i] + (i % 2 == 0 ? 0.1 : -0.1);
+  }
+  EXPECT_EQ(count_reversed(), 0u);
 }
 
 TEST(SurveyKnownPositions, RefusesStationsThatShareNoWalls) {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "adit/map/line_map.hpp"
-#include "adit/survey/looked_at.hpp"
+#include "adit/survey/changed_walls.hpp"
+#include "adit/survey/like_walls.hpp"
+#include "adit/survey/replaced_walls.hpp"
 #include "adit/survey/wall_evidence.hpp"
 
 namespace adit {
@@ -24,79 +24,6 @@ struct PlanPlace {
   PlaceState state = PlaceState::unseen;
   double offset = 0.0;
   double share_through = 0.0;
-};
-
-struct NearWall {
-  int wall = -1;
-  double distance = 0.0;
-};
-
-/// Finds walls of like direction.
-class LikeWalls {
- public:
-  LikeWalls(std::span<const Segment> segments, double parallel_rad)
-      : segments_(segments.begin(), segments.end()),
-        index_(segments_),
-        cosine_(std::cos(parallel_rad)),
-        sine_(std::sin(parallel_rad)) {}
-
-  /// The nearest within `reach`, and no farther than `beside` along the direction: a wall that
-  /// goes on where another ends does not stand in its place.
-  std::optional<NearWall> nearest(const Vector2d& p, const Vector2d& direction, double reach,
-                                  double beside) const {
-    std::optional<NearWall> best;
-    index_.visit([&](const Box& box) { return box.squared_distance(p) <= reach * reach; },
-                 [&](const SegmentIndex::Entry& entry) {
-                   const Segment& s = segments_[static_cast<std::size_t>(entry.segment)];
-                   const double length = s.length();
-                   if (length <= 0.0) return;
-                   if (std::abs((s.b - s.a).dot(direction)) < cosine_ * length) return;
-                   const Vector2d way = nearest_point(s, p) - p;
-                   const double d = way.norm();
-                   if (d > reach || (best && d >= best->distance)) return;
-                   // The way to a wall that is not quite parallel leans by as much.
-                   if (std::abs(way.dot(direction)) > std::max(beside, sine_ * d)) return;
-                   best = {{entry.segment, d}};
-                 });
-    return best;
-  }
-
-  /// Whether any wall, of whatever direction, is so near.
-  bool any_within(const Vector2d& p, double reach) const {
-    bool found = false;
-    index_.visit([&](const Box& box) { return box.squared_distance(p) <= reach * reach; },
-                 [&](const SegmentIndex::Entry& entry) {
-                   const Segment& s = segments_[static_cast<std::size_t>(entry.segment)];
-                   found = found || distance(s, p) <= reach;
-                 });
-    return found;
-  }
-
-  /// How many walls the way from one point to another crosses.
-  int crossings(const Vector2d& from, const Vector2d& to) const {
-    int count = 0;
-    const Box way = box_of({from, to});
-    std::vector<int> seen;
-    index_.visit([&](const Box& box) { return box.overlaps(way); },
-                 [&](const SegmentIndex::Entry& entry) { seen.push_back(entry.segment); });
-    std::sort(seen.begin(), seen.end());
-    seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
-    for (const int i : seen) {
-      const Segment& s = segments_[static_cast<std::size_t>(i)];
-      const double a = cross(to - from, s.a - from);
-      const double b = cross(to - from, s.b - from);
-      const double c = cross(s.b - s.a, from - s.a);
-      const double d = cross(s.b - s.a, to - s.a);
-      if (a * b < 0.0 && c * d < 0.0) ++count;
-    }
-    return count;
-  }
-
- private:
-  std::vector<Segment> segments_;
-  SegmentIndex index_;
-  double cosine_;
-  double sine_;
 };
 
 std::vector<Vector2d> places_along(const Segment& s, double step) {
@@ -118,10 +45,14 @@ class Comparison {
         looked_at_(box_of_beams(scans, scanner).padded(options.moved_m)),
         walls_(walls),
         surveyed_(walls.segments()),
+        replaced_(surveyed_),
         options_(options),
         near_surveyed_(surveyed_, options.parallel_rad),
         near_plan_(plan, options.parallel_rad),
         evidence_(scanner, wall_options) {
+    for (const SurveyedWallLine& line : walls.lines) {
+      for (const SurveyedWall& piece : line.pieces) supports_.push_back(&piece.support);
+    }
     std::vector<int> by_way;
     if (visits.size() != scans.size()) {
       by_way = visits_by_way(scans, wall_options.visit_m);
@@ -135,8 +66,9 @@ class Comparison {
   }
 
   PlanDifference run() {
-    replaced_.assign(surveyed_.size(), 0);
     for (std::size_t i = 0; i < plan_.size(); ++i) compare_segment(i);
+    for (const std::vector<std::size_t>& runs : runs_of_changes(runs_)) add_change(runs);
+    add_replacements();
     add_new_walls();
     return std::move(difference_);
   }
@@ -232,36 +164,79 @@ class Comparison {
     if (state == PlaceState::confirmed) difference_.confirmed_m += to - from;
     if (state == PlaceState::unseen) difference_.unseen_m += to - from;
     if (state != PlaceState::gone && state != PlaceState::moved) return;
-    if (to - from < std::min(options_.min_length_m, plan_[index].length())) return;
-    PlanChangeItem item;
-    item.change = state == PlaceState::gone ? PlanChange::gone : PlanChange::moved;
-    item.plan_segment = static_cast<int>(index);
-    item.from_m = from;
-    item.to_m = to;
-    item.length_m = to - from;
-    const Segment& s = plan_[index];
-    const Vector2d along = (s.b - s.a).normalized();
-    item.removed.push_back({s.a + from * along, s.a + to * along});
+    ChangedRun changed;
+    changed.change = state == PlaceState::gone ? PlanChange::gone : PlanChange::moved;
+    changed.piece = {static_cast<int>(index), {from, to}};
+    changed.removed = piece_of(plan_[index], changed.piece.stretch);
     for (const PlanPlace& place : run) {
-      item.offset_m += place.offset / static_cast<double>(run.size());
-      item.seen_through += place.share_through / static_cast<double>(run.size());
-      if (state == PlaceState::moved) take_replacement(place.point, along, item);
+      changed.places.push_back({place.point, place.offset, place.share_through});
     }
+    runs_.push_back(std::move(changed));
+  }
+
+  /// Lists what removes walls of the plan, unless it is short and more of these walls stays.
+  void add_change(std::span<const std::size_t> runs) {
+    PlanChangeItem item;
+    item.change = runs_[runs.front()].change;
+    double whole = 0.0;
+    double count = 0.0;
+    for (const std::size_t r : runs) {
+      const ChangedRun& run = runs_[r];
+      item.pieces.push_back(run.piece);
+      item.removed.push_back(run.removed);
+      item.length_m += run.piece.stretch.length_m();
+      whole += plan_[static_cast<std::size_t>(run.piece.segment)].length();
+      for (const ChangedPlace& place : run.places) {
+        item.offset_m += place.offset_m;
+        item.seen_through += place.share_through;
+        count += 1.0;
+      }
+    }
+    if (item.length_m < std::min(options_.min_length_m, whole)) return;
+    item.offset_m /= count;
+    item.seen_through /= count;
+    if (item.change == PlanChange::moved) claim_replacements(runs);
     difference_.items.push_back(std::move(item));
   }
 
-  /// The surveyed wall that stands in for a place of the plan; each is taken once.
-  void take_replacement(const Vector2d& p, const Vector2d& along, PlanChangeItem& item) {
-    const auto near = near_surveyed_.nearest(p, along, options_.moved_m, options_.step_m);
-    if (!near) return;
-    const auto wall = static_cast<std::size_t>(near->wall);
-    if (replaced_[wall] != 0) return;
-    replaced_[wall] = 1;
-    item.added.push_back(surveyed_[wall]);
+  /// The surveyed walls that stand in for the places of these runs, for the next item.
+  void claim_replacements(std::span<const std::size_t> runs) {
+    for (const std::size_t r : runs) {
+      const Segment& removed = runs_[r].removed;
+      const Vector2d along = (removed.b - removed.a).normalized();
+      for (const ChangedPlace& place : runs_[r].places) {
+        const auto near =
+            near_surveyed_.nearest(place.point, along, options_.moved_m, options_.step_m);
+        if (!near) continue;
+        replaced_.claim(difference_.items.size(), static_cast<std::size_t>(near->wall),
+                        near->point);
+      }
+    }
+  }
+
+  void add_replacements() {
+    const auto is_plans_own = [&](std::size_t wall, const Vector2d& p) {
+      const Vector2d along = (surveyed_[wall].b - surveyed_[wall].a).normalized();
+      return near_plan_.nearest(p, along, options_.same_m, options_.step_m).has_value();
+    };
+    for (const Replacement& r : replaced_.share_out(options_.step_m, is_plans_own)) {
+      PlanChangeItem& item = difference_.items[r.change];
+      item.added.push_back(piece_of(surveyed_[r.wall], r.stretch));
+      const double share = r.stretch.length_m() / surveyed_[r.wall].length();
+      add_support(*supports_[r.wall], share, item.support);
+    }
+  }
+
+  /// What speaks for a share of a wall; where hits lie on it is not kept, so that they are taken
+  /// for evenly spread.
+  static void add_support(const WallSupport& wall, double share, WallSupport& sum) {
+    sum.hits += share * wall.hits;
+    sum.scans = std::max(sum.scans, wall.scans);
+    sum.visits = std::max(sum.visits, wall.visits);
   }
 
   bool is_new(std::size_t wall) const {
-    if (replaced_[wall] != 0) return false;
+    if (replaced_.is_claimed(wall)) return false;
     std::size_t far = 0;
     const std::vector<Vector2d> places = places_along(surveyed_[wall], options_.step_m);
     for (const Vector2d& p : places) {
@@ -282,9 +257,7 @@ class Comparison {
         if (is_new(wall)) {
           item.added.push_back(piece.segment);
           item.length_m += piece.segment.length();
-          item.support.hits += piece.support.hits;
-          item.support.scans = std::max(item.support.scans, piece.support.scans);
-          item.support.visits = std::max(item.support.visits, piece.support.visits);
+          add_support(piece.support, 1.0, item.support);
           ask_observers(piece.segment, behind, open);
         } else {
           finish_new(item, behind, open);
@@ -326,66 +299,24 @@ class Comparison {
   Box looked_at_;
   const WallMap& walls_;
   std::vector<Segment> surveyed_;
+  ReplacedWalls replaced_;
   const PlanDifferenceOptions& options_;
   LikeWalls near_surveyed_;
   LikeWalls near_plan_;
   BeamEvidence evidence_;
   std::vector<Vector2d> observers_;
-  std::vector<char> replaced_;
+  std::vector<ChangedRun> runs_;
+  std::vector<const WallSupport*> supports_;  // of the surveyed walls
   PlanDifference difference_;
 };
 
 }  // namespace
-
-const char* to_string(PlanChange change) {
-  switch (change) {
-    case PlanChange::gone:
-      return "wall gone";
-    case PlanChange::moved:
-      return "wall moved";
-    case PlanChange::cut:
-      return "new cut";
-    case PlanChange::obstacle:
-      break;
-  }
-  return "new obstacle";
-}
 
 PlanDifference compare_with_plan(std::span<const Segment> plan, const WallMap& walls,
                                  std::span<const PosedScan> scans, const ScannerModel& scanner,
                                  const PlanDifferenceOptions& options,
                                  const WallOptions& wall_options, std::span<const int> visits) {
   return Comparison(plan, walls, scans, scanner, options, wall_options, visits).run();
-}
-
-std::vector<Segment> apply_changes(std::span<const Segment> plan,
-                                   std::span<const PlanChangeItem> accepted) {
-  constexpr double kLeast = 1e-6;  // m: what is left of a wall
-  std::vector<Segment> changed;
-  for (std::size_t i = 0; i < plan.size(); ++i) {
-    std::vector<std::pair<double, double>> cuts;
-    for (const PlanChangeItem& item : accepted) {
-      if (item.plan_segment == static_cast<int>(i)) cuts.emplace_back(item.from_m, item.to_m);
-    }
-    if (cuts.empty()) {
-      changed.push_back(plan[i]);
-      continue;
-    }
-    std::sort(cuts.begin(), cuts.end());
-    const Vector2d along = (plan[i].b - plan[i].a).normalized();
-    double from = 0.0;
-    cuts.emplace_back(plan[i].length(), plan[i].length());
-    for (const auto& [cut, end] : cuts) {
-      if (cut - from > kLeast) {
-        changed.push_back({plan[i].a + from * along, plan[i].a + cut * along});
-      }
-      from = std::max(from, end);
-    }
-  }
-  for (const PlanChangeItem& item : accepted) {
-    changed.insert(changed.end(), item.added.begin(), item.added.end());
-  }
-  return changed;
 }
 
 }  // namespace adit

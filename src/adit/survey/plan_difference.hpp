@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "adit/survey/looked_at.hpp"
 #include "adit/survey/walls.hpp"
 
 namespace adit {
@@ -44,18 +45,22 @@ struct PlanDifferenceOptions {
   }
 };
 
-/// One change, to be looked at and accepted or not.
+/// A stretch of one of the plan's segments.
+struct PlanPiece {
+  int segment = -1;
+  Stretch stretch;
+};
+
+/// One change, to be looked at and accepted or not: neighbouring walls that changed alike are one.
 struct PlanChangeItem {
   PlanChange change = PlanChange::gone;
-  std::vector<Segment> removed;  ///< of the plan
-  std::vector<Segment> added;    ///< as surveyed
+  std::vector<PlanPiece> pieces;  ///< of the plan, that are removed
+  std::vector<Segment> removed;   ///< the same
+  std::vector<Segment> added;     ///< as surveyed
   double length_m = 0.0;
   double offset_m = 0.0;      ///< mean distance from the plan's line, of a moved wall
   double seen_through = 0.0;  ///< share of the visits' votes that saw through what is removed
   WallSupport support;        ///< of what is added
-  int plan_segment = -1;      ///< of what is removed
-  double from_m = 0.0;        ///< along that segment
-  double to_m = 0.0;
 };
 
 /// What changed, and how much of the plan was looked at (m).

@@ -123,6 +123,41 @@ TEST(CompareWithPlan, FindsAWallThatMoved) {
   EXPECT_NEAR(moved->added.front().a.y(), 4.0, 0.05);
 }
 
+TEST(CompareWithPlan, ListsAWallThatIsDrawnInPiecesOnce) {
+  auto plan = corridor(false);
+  plan[2] = {{20.0, 3.5}, {9.0, 3.5}};  // both were cut back by half a metre since
+  plan.push_back({{9.0, 3.5}, {0.0, 3.5}});
+  const auto d = difference(plan, corridor(false));
+  ASSERT_EQ(count(d, PlanChange::moved), 1);
+  const PlanChangeItem& moved = d.items.front();
+  EXPECT_EQ(moved.pieces.size(), 2U);
+  EXPECT_NEAR(moved.length_m, 19.0, 1.5);
+  EXPECT_GT(moved.support.hits, 100.0);
+  EXPECT_GT(moved.support.scans, 5);
+  EXPECT_TRUE(difference(apply_changes(plan, d.items), corridor(false)).items.empty());
+}
+
+TEST(CompareWithPlan, GivesEachOfTwoMovedWallsItsPartOfTheWallThatReplacesThem) {
+  auto plan = corridor(false);
+  plan[2] = {{20.0, 4.0}, {12.0, 4.0}};  // between two that are cut back one stands
+  plan.push_back({{12.0, 3.4}, {7.0, 3.4}});
+  plan.push_back({{6.0, 3.5}, {0.0, 3.5}});
+  const auto d = difference(plan, corridor(false));
+  ASSERT_EQ(count(d, PlanChange::moved), 2);
+  ASSERT_EQ(d.items.size(), 2U);
+  for (const PlanChangeItem& item : d.items) {
+    double added = 0.0;
+    for (const Segment& s : item.added) added += s.length();
+    EXPECT_NEAR(added, 6.0, 1.2);
+    // Alone it is made whole, and the other is still found.
+    const auto made = apply_changes(plan, std::vector<PlanChangeItem>{item});
+    const auto rest = difference(made, corridor(false));
+    ASSERT_EQ(rest.items.size(), 1U);
+    EXPECT_EQ(rest.items.front().change, PlanChange::moved);
+  }
+  EXPECT_TRUE(difference(apply_changes(plan, d.items), corridor(false)).items.empty());
+}
+
 TEST(CompareWithPlan, LeavesWallsThatRunToTheHorizonUnseen) {
   constexpr double kFar = 1e8;  // m
   auto plan = corridor(false);
@@ -151,9 +186,7 @@ TEST(ApplyChanges, ChangesWhatIsAcceptedAndNothingElse) {
   const auto plan = corridor(false);
   EXPECT_EQ(apply_changes(plan, {}).size(), plan.size());
   PlanChangeItem gone;
-  gone.plan_segment = 2;
-  gone.from_m = 8.0;
-  gone.to_m = 12.0;
+  gone.pieces = {{2, {8.0, 12.0}}};
   PlanChangeItem cut;
   cut.change = PlanChange::cut;
   cut.added = {{{8.0, 7.0}, {12.0, 7.0}}};

@@ -166,6 +166,13 @@ class HeadingSearch {
     return {*given - options_.given_within_rad, *given + options_.given_within_rad};
   }
 
+  /// So far round a heading, as far as the bounds of one that was given go.
+  std::pair<double, double> around(std::size_t i, double heading, double reach) const {
+    if (!stations_[i].heading) return {heading - reach, heading + reach};
+    const auto [from, to] = bounds(i);
+    return {std::clamp(heading - reach, from, to), std::clamp(heading + reach, from, to)};
+  }
+
   /// Headings of the first station under which its neighbours can agree with it, best first.
   std::vector<double> first_headings(std::size_t first) {
     const auto [from, to] = bounds(first);
@@ -235,7 +242,8 @@ class HeadingSearch {
     for (std::size_t i = 0; i < stations_.size(); ++i) {
       if (neighbours_[i].empty()) continue;
       const double before = headings[i];
-      headings[i] = best_heading(before - reach, before + reach, step, [&](double h) {
+      const auto [from, to] = around(i, before, reach);
+      headings[i] = best_heading(from, to, step, [&](double h) {
                       double sum = 0.0;
                       for (const std::size_t j : neighbours_[i]) {
                         sum += agreement(i, h, j, headings[j], points);
@@ -273,10 +281,10 @@ class HeadingSearch {
       double best = headings[i];
       double most = score_of(i, headings, best);
       for (const double other : others[i]) {
-        const double heading =
-            best_heading(other - reach, other + reach, kOtherStep, [&](double h) {
-              return agreement_of(i, headings, h - headings[i]);
-            }).first;
+        const auto [from, to] = around(i, other, reach);
+        const double heading = best_heading(from, to, kOtherStep, [&](double h) {
+                                 return agreement_of(i, headings, h - headings[i]);
+                               }).first;
         if (std::abs(angle_between(heading, headings[i])) < reach) continue;
         const double score = score_of(i, headings, heading);
         if (score <= most) continue;

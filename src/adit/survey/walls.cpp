@@ -12,6 +12,9 @@ namespace {
 constexpr double kShareOfAdding = 0.45;  // of the time, for the progress
 constexpr double kShareOfLooking = 0.45;
 constexpr std::size_t kReportEvery = 64;  // scans
+// Of a visit's way: less is not counted until it adds up to that in a straight line, so that the
+// jitter of a machine that stands makes no visits.
+constexpr double kStride = 0.1;
 
 }  // namespace
 
@@ -24,12 +27,15 @@ std::vector<Segment> WallMap::segments() const {
 }
 
 std::vector<int> visits_by_way(std::span<const PosedScan> scans, double visit_m) {
+  const double stride = kStride * visit_m;
   std::vector<int> visits;
   double way = 0.0;
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    if (i > 0) {
-      way += (scans[i].map_from_vehicle.translation() - scans[i - 1].map_from_vehicle.translation())
-                 .norm();
+  Vector2d last = scans.empty() ? Vector2d(0.0, 0.0) : scans[0].map_from_vehicle.translation();
+  for (const PosedScan& scan : scans) {
+    const Vector2d here = scan.map_from_vehicle.translation();
+    if ((here - last).norm() >= stride) {
+      way += (here - last).norm();
+      last = here;
     }
     visits.push_back(static_cast<int>(way / visit_m));
   }

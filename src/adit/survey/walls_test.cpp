@@ -129,9 +129,10 @@ TEST(SurveyWalls, LeavesAnOpeningOpen) {
   walls.push_back({{0.0, 4.0}, {4.0, 4.0}});
   walls.push_back({{5.2, 4.0}, {10.0, 4.0}});
   const auto scans = drive(walls, {{2.0, 2.0}, {8.0, 2.0}});
-  for (const Segment& s : survey_walls(scans, all_round().model).segments()) {
-    EXPECT_GT(distance(s, {4.6, 4.0}), 0.45);
-  }
+  const auto found = survey_walls(scans, all_round().model).segments();
+  for (const Segment& s : found) EXPECT_GT(distance(s, {4.6, 4.0}), 0.45);
+  const std::vector<Segment> partition{{{0.2, 4.0}, {3.9, 4.0}}, {{5.3, 4.0}, {9.8, 4.0}}};
+  EXPECT_LT(farthest_from(found, partition), 0.05);
 }
 
 TEST(SurveyWalls, LetsWallsEndAtTheWallsTheyMeet) {
@@ -191,6 +192,18 @@ TEST(VisitsByWay, BeginAfterAStretchOfWayNotOfTime) {
   scans[3].map_from_vehicle.x = 2.5;
   scans[4].map_from_vehicle.x = 5.0;
   EXPECT_EQ(visits_by_way(scans, 2.0), (std::vector<int>{0, 0, 0, 1, 2}));
+}
+
+TEST(VisitsByWay, AreNotMadeByTheJitterOfAMachineThatStands) {
+  Random random(3);
+  std::vector<PosedScan> scans(5000);
+  for (PosedScan& scan : scans) {
+    scan.map_from_vehicle = {0.03 * random.normal(), 0.03 * random.normal(), 0.0};
+  }
+  scans.back().map_from_vehicle.x = 2.5;
+  const std::vector<int> visits = visits_by_way(scans, 2.0);
+  EXPECT_EQ(visits[4998], 0);
+  EXPECT_EQ(visits[4999], 1);
 }
 
 }  // namespace
