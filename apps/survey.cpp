@@ -116,6 +116,10 @@ int run_survey(const SurveyArguments& arguments) {
     fmt::print(stderr, "{} scans of other lasers than the first are in no wall\n",
                surveyed->of_other_lasers);
   }
+  if (surveyed->by_station > 0) {
+    fmt::print(stderr, "{} scans have no pose of their stamp: they are placed with their station\n",
+               surveyed->by_station);
+  }
   fmt::print("{}wrote {}\n", summary_of(*surveyed), arguments.output);
   return kDone;
 }

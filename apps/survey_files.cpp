@@ -59,6 +59,10 @@ std::string segment_text(const Segment& s) {
   return fmt::format("{:.4f},{:.4f},{:.4f},{:.4f}", s.a.x(), s.a.y(), s.b.x(), s.b.y());
 }
 
+std::string covariance_text(const Matrix2d& m) {
+  return fmt::format("{:.4g},{:.4g},{:.4g}", m(0, 0), m(0, 1), m(1, 1));
+}
+
 }  // namespace
 
 Json changes_report(const PlanDifference& difference) {
@@ -93,6 +97,7 @@ Json survey_report(const Surveyed& surveyed) {
     json["closures"] = closures_report(surveyed);
   } else {
     json["stations"] = surveyed.stations.size();
+    json["scans_by_station"] = surveyed.by_station;
     json["without_heading"] = Json::array();
     for (const Vector2d& p : surveyed.unplaced) {
       Json row = Json::array();
@@ -108,13 +113,17 @@ Json survey_report(const Surveyed& surveyed) {
 
 Result<void> write_walls(const WallMap& walls, const std::string& path) {
   std::string text =
-      "x1,y1,x2,y2,line,offset_sigma_m,angle_sigma_rad,scatter_m,hits,scans,visits\n";
+      "x1,y1,x2,y2,line,offset_sigma_m,angle_sigma_rad,scatter_m,hits,scans,visits,"
+      "xx1,xy1,yy1,xx2,xy2,yy2\n";
   std::size_t number = 0;
   for (const auto& line : walls.lines) {
-    for (const SurveyedWall& wall : line.pieces) {
-      text += fmt::format("{},{},{:.5f},{:.6f},{:.4f},{:.0f},{},{}\n", segment_text(wall.segment),
-                          number, wall.offset_sigma_m(), wall.angle_sigma_rad(), wall.scatter_m,
-                          wall.support.hits, wall.support.scans, wall.support.visits);
+    for (std::size_t i = 0; i < line.pieces.size(); ++i) {
+      const SurveyedWall& wall = line.pieces[i];
+      text += fmt::format(
+          "{},{},{:.5f},{:.6f},{:.4f},{:.0f},{},{},{},{}\n", segment_text(wall.segment), number,
+          wall.offset_sigma_m(), wall.angle_sigma_rad(), wall.scatter_m, wall.support.hits,
+          wall.support.scans, wall.support.visits, covariance_text(line.covariances[i]),
+          covariance_text(line.covariances[i + 1]));
     }
     ++number;
   }

@@ -81,9 +81,16 @@ Result<DriveResult> drive_of(const Log& log, const SurveyArguments& arguments,
   }
   if (!out.plan.empty()) {
     out.places_in_plan = know_places(localize_in(out.plan, log, values, call.start), survey);
+    if (out.places_in_plan == 0) {
+      return fail("no scan was found in the plan; --start says where the drive began",
+                  arguments.update);
+    }
   }
-  return survey.finish(threads_or_cores(arguments.threads.value_or(0)),
-                       [&](const char* stage, double part) { bars.show(stage, part); });
+  const int threads = threads_or_cores(arguments.threads.value_or(0));
+  auto result =
+      survey.finish(threads, [&](const char* stage, double part) { bars.show(stage, part); });
+  if (!result) return fail(result.error().message, arguments.log);
+  return result;
 }
 
 /// From the drive alone. The scans leave the log.
@@ -94,11 +101,7 @@ Result<void> survey_drive(Log& log, const SurveyArguments& arguments, const Surv
                 arguments.log);
   }
   const Result<DriveResult> surveyed = drive_of(log, arguments, call, bars, out);
-  if (!out.plan.empty() && out.places_in_plan == 0) {
-    return fail("no scan was found in the plan; --start says where the drive began",
-                arguments.update);
-  }
-  if (!surveyed) return fail(surveyed.error().message, arguments.log);
+  if (!surveyed) return tl::unexpected(surveyed.error());
   const DriveResult& drive = *surveyed;
   for (std::size_t i = 0; i < log.scans.size(); ++i) {
     const SurveyedPose& at = drive.poses[i];
@@ -139,6 +142,8 @@ Result<void> survey_positions(Log& log, const SurveyArguments& arguments, StageB
   const Configuration& values = out.settings.configuration;
   const auto placed = place_scans(scans, *known, values.positions.headings);
   if (!placed) return fail(placed.error().message, arguments.poses);
+  out.by_station = static_cast<std::size_t>(std::count_if(
+      placed->begin(), placed->end(), [](const PositionedScan& s) { return !s.has_own_pose; }));
   auto survey = survey_known_positions(
       *placed, values.localizer.scanner, values.positions, values.walls,
       [&](double part) { bars.show("surveying from known positions", part); });

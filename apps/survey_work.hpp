@@ -35,7 +35,8 @@ struct Surveyed {
   std::vector<SurveyClosure> closures;
   std::vector<Pose2> stations;     ///< of known positions
   std::vector<Vector2d> unplaced;  ///< positions whose heading was not found
-  std::vector<Segment> plan;       ///< that is updated
+  std::size_t by_station = 0;  ///< scans without a pose of their stamp: they took their station's
+  std::vector<Segment> plan;   ///< that is updated
   std::size_t places_in_plan = 0;  ///< scans that were found in it
   std::optional<PlanDifference> difference;
 };

@@ -8,10 +8,10 @@ namespace {
 constexpr double kLeast = 1e-6;  // m: what is left of a wall
 
 /// What is left of a wall without these stretches, which are in order.
-void add_rest(const Segment& wall, std::span<const Stretch> cuts, std::vector<Segment>& out) {
+void add_rest(const Segment& wall, std::span<const SegmentPart> cuts, std::vector<Segment>& out) {
   const Vector2d along = (wall.b - wall.a).normalized();
   double from = 0.0;
-  for (const Stretch& cut : cuts) {
+  for (const SegmentPart& cut : cuts) {
     if (cut.from_m - from > kLeast) {
       out.push_back({wall.a + from * along, wall.a + cut.from_m * along});
     }
@@ -38,7 +38,7 @@ const char* to_string(PlanChange change) {
 
 std::vector<Segment> apply_changes(std::span<const Segment> plan,
                                    std::span<const PlanChangeItem> accepted) {
-  std::vector<std::vector<Stretch>> cuts(plan.size());
+  std::vector<std::vector<SegmentPart>> cuts(plan.size());
   for (const PlanChangeItem& item : accepted) {
     for (const PlanPiece& piece : item.pieces) {
       cuts[static_cast<std::size_t>(piece.segment)].push_back(piece.stretch);
@@ -51,7 +51,7 @@ std::vector<Segment> apply_changes(std::span<const Segment> plan,
       continue;
     }
     std::sort(cuts[i].begin(), cuts[i].end(),
-              [](const Stretch& a, const Stretch& b) { return a.from_m < b.from_m; });
+              [](const SegmentPart& a, const SegmentPart& b) { return a.from_m < b.from_m; });
     add_rest(plan[i], cuts[i], changed);
   }
   for (const PlanChangeItem& item : accepted) {

@@ -40,15 +40,6 @@ DriftBound::DriftBound(std::size_t nodes, std::span<const PoseConstraint> constr
   }
 }
 
-std::vector<RelativeSigma> DriftBound::from(std::size_t source, std::span<const Pose2> poses,
-                                            double limit_m) const {
-  std::vector<RelativeSigma> out(begins_.size() - 1);
-  DriftSearch search(*this, poses);
-  search.begin(source);
-  while (const auto reached = search.next(limit_m)) out[reached->node] = reached->sigma;
-  return out;
-}
-
 DriftSearch::DriftSearch(const DriftBound& bound, std::span<const Pose2> poses)
     : bound_(bound), poses_(poses), labels_(bound.begins_.size() - 1) {}
 

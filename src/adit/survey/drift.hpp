@@ -27,10 +27,6 @@ class DriftBound {
   /// Constraints that say nothing of a direction leave it as open as `open_m`.
   DriftBound(std::size_t nodes, std::span<const PoseConstraint> constraints, double open_m = 5.0);
 
-  /// Against `source`, up to where the sigma passes the limit (m).
-  std::vector<RelativeSigma> from(std::size_t source, std::span<const Pose2> poses,
-                                  double limit_m) const;
-
  private:
   friend class DriftSearch;
   struct Edge {

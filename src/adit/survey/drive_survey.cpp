@@ -177,7 +177,8 @@ std::vector<Matrix3d> DriveSurvey::covariances() const {
     Matrix3d rotation = Matrix3d::Identity();
     const Vector2d axis = unit_vector(poses_[c.from].theta);
     rotation.topLeftCorner<2, 2>() << axis.x(), -axis.y(), axis.y(), axis.x();
-    const Matrix3d of_it = rotation * c.information * rotation.transpose();
+    const double share = robust_share(c, poses_[c.from], poses_[c.to]);
+    const Matrix3d of_it = share * rotation * c.information * rotation.transpose();
     information[c.to] += of_it;
     ++counts[c.to];
   }

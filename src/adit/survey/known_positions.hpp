@@ -58,6 +58,7 @@ struct PositionedScan {
   LaserScan scan;
   Vector2d position = Vector2d::Zero();  ///< of the vehicle, in the map
   std::optional<double> heading;         ///< rad, where it is known roughly
+  bool has_own_pose = true;              ///< else that of its station
 };
 
 /// Gives each scan its position.

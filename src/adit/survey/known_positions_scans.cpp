@@ -62,11 +62,12 @@ Result<std::vector<PositionedScan>> place_scans(std::span<const LaserScan> scans
   const bool believed =
       headings == GivenHeadings::all || (headings == GivenHeadings::automatic && !all_alike);
   std::vector<int> found = poses_by_stamp(scans, sorted);
+  const std::vector<int> own = found;
   fill_stations(scans, sorted, found);
   std::vector<PositionedScan> placed;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const Pose2& pose = sorted[static_cast<std::size_t>(found[i])].pose;
-    placed.push_back({scans[i], pose.translation(), std::nullopt});
+    placed.push_back({scans[i], pose.translation(), std::nullopt, own[i] >= 0});
     if (believed) placed.back().heading = pose.theta;
   }
   return placed;

@@ -262,6 +262,7 @@ TEST(PlaceScans, GivesAStationsScansItsPose) {
   for (std::size_t i = 0; i < expected.size(); ++i) {
     EXPECT_EQ((*after_first)[i].position.x(), expected[i]);
     EXPECT_FALSE((*after_first)[i].heading.has_value());  // all alike: positions alone
+    EXPECT_EQ((*after_first)[i].has_own_pose, i % 3 == 0);
   }
   const std::vector<StampedPose> last{{2.0, {1.0, 0.0, 0.0}}, {4.0, {2.0, 0.0, 0.0}}};
   const auto before_last =

@@ -23,11 +23,11 @@ Box box_of_beams(std::span<const PosedScan> scans, const ScannerModel& scanner) 
   return box;
 }
 
-std::optional<Stretch> stretch_within(const Segment& s, const Box& box) {
+std::optional<SegmentPart> stretch_within(const Segment& s, const Box& box) {
   const double length = s.length();
   if (length <= 0.0 || box.is_empty()) return std::nullopt;
   const Vector2d along = (s.b - s.a) / length;
-  Stretch stretch{0.0, length};
+  SegmentPart stretch{0.0, length};
   for (const int axis : {0, 1}) {
     const double to_low = box.min[axis] - s.a[axis];
     const double to_high = box.max[axis] - s.a[axis];
@@ -44,7 +44,7 @@ std::optional<Stretch> stretch_within(const Segment& s, const Box& box) {
   return stretch;
 }
 
-Segment piece_of(const Segment& s, const Stretch& stretch) {
+Segment piece_of(const Segment& s, const SegmentPart& stretch) {
   const double length = s.length();
   if (stretch.length_m() >= length) return s;
   const Vector2d along = (s.b - s.a) / length;

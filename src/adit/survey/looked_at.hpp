@@ -10,7 +10,7 @@
 namespace adit {
 
 /// A part of a segment, along it from its beginning.
-struct Stretch {
+struct SegmentPart {
   double from_m = 0.0;
   double to_m = 0.0;
 
@@ -21,9 +21,9 @@ struct Stretch {
 Box box_of_beams(std::span<const PosedScan> scans, const ScannerModel& scanner);
 
 /// The part of a segment that lies in a box (Liang and Barsky 1984); nothing where none does.
-std::optional<Stretch> stretch_within(const Segment& s, const Box& box);
+std::optional<SegmentPart> stretch_within(const Segment& s, const Box& box);
 
 /// That part as a segment of its own.
-Segment piece_of(const Segment& s, const Stretch& stretch);
+Segment piece_of(const Segment& s, const SegmentPart& stretch);
 
 }  // namespace adit

@@ -48,7 +48,7 @@ struct PlanDifferenceOptions {
 /// A stretch of one of the plan's segments.
 struct PlanPiece {
   int segment = -1;
-  Stretch stretch;
+  SegmentPart stretch;
 };
 
 /// One change, to be looked at and accepted or not: neighbouring walls that changed alike are one.

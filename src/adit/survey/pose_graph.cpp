@@ -61,6 +61,12 @@ double squared_error(const PoseConstraint& constraint, const Pose2& from, const 
   return error.dot(constraint.information * error);
 }
 
+double robust_share(const PoseConstraint& constraint, const Pose2& from, const Pose2& to) {
+  if (constraint.robust_sigmas <= 0.0) return 1.0;
+  const double sigmas2 = constraint.robust_sigmas * constraint.robust_sigmas;
+  return 1.0 / (1.0 + squared_error(constraint, from, to) / sigmas2);
+}
+
 GraphSummary solve_pose_graph(std::vector<Pose2>& poses,
                               std::span<const PoseConstraint> constraints, int max_iterations) {
   if (poses.size() < 2 || constraints.empty()) return {true, true, 0, 0.0};

@@ -33,4 +33,8 @@ GraphSummary solve_pose_graph(std::vector<Pose2>& poses,
 /// The weighted squared error of a constraint at the poses.
 double squared_error(const PoseConstraint& constraint, const Pose2& from, const Pose2& to);
 
+/// How much of its information a constraint brings to bear at the poses, from 0 to 1: less than all
+/// where it is robust and off.
+double robust_share(const PoseConstraint& constraint, const Pose2& from, const Pose2& to);
+
 }  // namespace adit

@@ -66,5 +66,13 @@ TEST(PoseGraph, LeavesPosesAloneThatNothingSpeaksOf) {
   EXPECT_EQ(worst(before, poses), 0.0);
 }
 
+TEST(RobustShare, FallsWhereARobustConstraintIsOff) {
+  PoseConstraint constraint{0, 1, {1.0, 0.0, 0.0}, kGood, 0.0};
+  EXPECT_EQ(robust_share(constraint, {}, {2.0, 0.0, 0.0}), 1.0);
+  constraint.robust_sigmas = 3.0;
+  EXPECT_EQ(robust_share(constraint, {}, {1.0, 0.0, 0.0}), 1.0);
+  EXPECT_NEAR(robust_share(constraint, {}, {1.03, 0.0, 0.0}), 0.5, 1e-9);
+}
+
 }  // namespace
 }  // namespace adit

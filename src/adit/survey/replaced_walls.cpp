@@ -41,11 +41,11 @@ std::vector<Replacement> ReplacedWalls::share_out(
       return limit;
     };
     for (std::size_t i = 0; i < claims.size(); ++i) {
-      const Stretch& at = claims[i].stretch;
+      const SegmentPart& at = claims[i].stretch;
       const double before = i > 0 ? 0.5 * (claims[i - 1].stretch.to_m + at.from_m) : 0.0;
       const double after =
           i + 1 < claims.size() ? 0.5 * (at.to_m + claims[i + 1].stretch.from_m) : length;
-      const Stretch stretch{grown(at.from_m, before), grown(at.to_m, after)};
+      const SegmentPart stretch{grown(at.from_m, before), grown(at.to_m, after)};
       if (stretch.length_m() > 0.0) out.push_back({claims[i].change, wall, stretch});
     }
   }

@@ -12,7 +12,7 @@ namespace adit {
 struct Replacement {
   std::size_t change = 0;
   std::size_t wall = 0;
-  Stretch stretch;
+  SegmentPart stretch;
 };
 
 /// Shares surveyed walls out among the walls of the plan that moved there, so that each change can
@@ -34,7 +34,7 @@ class ReplacedWalls {
  private:
   struct Claim {
     std::size_t change = 0;
-    Stretch stretch;
+    SegmentPart stretch;
   };
   /// Neighbouring places of one change together.
   static std::vector<Claim> joined(std::vector<Claim> claims);

@@ -65,5 +65,15 @@ TEST(StationSight, LooksFromWhereTheScannerIsMounted) {
   EXPECT_EQ(sight.share_seen_through(std::span(&ahead, 1), {1.0, 0.0, 0.0}, 0.5), 0.0);
 }
 
+TEST(StationSight, KnowsThatAMachineThatTurnsCarriesItsScannerAbout) {
+  LaserScan scan = round_scan(10.0);
+  scan.vehicle_from_laser = {2.0, 0.0, 0.0};
+  StationSight sight(scan.vehicle_from_laser.translation());
+  sight.add(scan, kPi, kScanner);  // its eye was at -2, 0
+  sight.finish();
+  EXPECT_EQ(seen_through(sight, {{9.0, 0.0}, {-1.0, 0.0}}), 0.0);
+  EXPECT_EQ(seen_through(sight, {{-11.0, 0.0}, {1.0, 0.0}}), 1.0);
+}
+
 }  // namespace
 }  // namespace adit

@@ -1,6 +1,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "adit/survey/wall_polyline.hpp"
 
@@ -119,6 +121,70 @@ bool is_supported(const SurveyedWallLine& line, const WallOptions& options) {
   return extent(line) >= options.min_length_m && hits >= options.min_hits_per_m * length;
 }
 
+/// Pieces of straight wall along a row of points.
+struct FittedPieces {
+  std::vector<std::size_t> begins;
+  std::vector<Vector2d> vertices;
+  bool closed = false;
+
+  std::size_t end_of(std::size_t piece, std::size_t points) const {
+    return piece + 1 < begins.size() ? begins[piece + 1] : points;
+  }
+};
+
+/// Distance from a piece, or from the one before or after: about a corner a point may lie by
+/// either.
+double distance_about(const FittedPieces& fitted, std::size_t piece, const Vector2d& point) {
+  const std::size_t last = fitted.begins.size() - 1;
+  double least = std::numeric_limits<double>::max();
+  const std::size_t from = piece > 0 ? piece - 1 : 0;
+  for (std::size_t i = from; i <= std::min(piece + 1, last); ++i) {
+    least = std::min(least, distance({fitted.vertices[i], fitted.vertices[i + 1]}, point));
+  }
+  return least;
+}
+
+/// The point of a piece that is farthest from the walls, if that is more than the tolerance and
+/// the piece can be broken there, with two points or more on either side; else nothing.
+std::optional<std::size_t> stray(std::span<const Vector2d> points, const FittedPieces& fitted,
+                                 std::size_t piece, double tolerance) {
+  const std::size_t begin = fitted.begins[piece];
+  const std::size_t end = fitted.end_of(piece, points.size());
+  if (end - begin < 4) return std::nullopt;
+  std::optional<std::size_t> farthest;
+  double most = tolerance;
+  for (std::size_t i = begin; i < end; ++i) {
+    const double d = distance_about(fitted, piece, points[i]);
+    if (d <= most) continue;
+    most = d;
+    farthest = i;
+  }
+  if (!farthest) return std::nullopt;
+  return std::clamp(*farthest, begin + 2, end - 2);
+}
+
+/// Pieces that follow the points to within the tolerance. Vertices that two pieces share may draw
+/// a piece off the line that fits it alone; such a piece is broken once more.
+FittedPieces fit_pieces(std::span<const Vector2d> points, bool closed, const WallOptions& options) {
+  FittedPieces fitted;
+  fitted.begins = split_into_lines(points, node_spacing(options), options.tolerance_m);
+  for (bool strays = true; strays;) {
+    strays = false;
+    fitted.closed = closed && fitted.begins.size() > 2;
+    fitted.vertices = fit_vertices(points, fitted.begins, fitted.closed, options.corner_gap_m);
+    std::vector<std::size_t> begins;
+    for (std::size_t i = 0; i < fitted.begins.size(); ++i) {
+      begins.push_back(fitted.begins[i]);
+      const auto at = stray(points, fitted, i, options.tolerance_m);
+      if (!at) continue;
+      begins.push_back(*at);
+      strays = true;
+    }
+    if (strays) fitted.begins = std::move(begins);
+  }
+  return fitted;
+}
+
 }  // namespace
 
 void set_vertex_covariances(SurveyedWallLine& line) {
@@ -144,18 +210,19 @@ double SurveyedWallLine::length() const {
 
 std::optional<SurveyedWallLine> make_wall_line(std::span<const WallNode> nodes,
                                                const WallChain& chain, const WallOptions& options) {
-  const double spacing = node_spacing(options);
   std::vector<int> order = chain.nodes;
-  if (static_cast<double>(order.size()) * spacing < 0.5 * options.min_length_m) return std::nullopt;
+  if (static_cast<double>(order.size()) * node_spacing(options) < 0.5 * options.min_length_m)
+    return std::nullopt;
   if (order.size() < 2) return std::nullopt;
   if (chain.closed) begin_at_break(nodes, options, order);
   const std::vector<Vector2d> points = points_of(nodes, order);
-  const auto begins = split_into_lines(points, spacing, options.tolerance_m);
+  FittedPieces fitted = fit_pieces(points, chain.closed, options);
+  const std::vector<std::size_t>& begins = fitted.begins;
   SurveyedWallLine line;
-  line.closed = chain.closed && begins.size() > 2;
-  line.vertices = fit_vertices(points, begins, line.closed, options.corner_gap_m);
+  line.closed = fitted.closed;
+  line.vertices = std::move(fitted.vertices);
   for (std::size_t i = 0; i < begins.size(); ++i) {
-    const std::size_t end = i + 1 < begins.size() ? begins[i + 1] : order.size();
+    const std::size_t end = fitted.end_of(i, order.size());
     line.pieces.push_back(
         make_piece(nodes, std::span<const int>(order).subspan(begins[i], end - begins[i]),
                    {line.vertices[i], line.vertices[i + 1]}));
