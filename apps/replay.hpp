@@ -19,14 +19,6 @@ struct Replay {
   StampCounts stamps;
 };
 
-/// Gives each scan its own odometry pose, and the localizer those of the log's ODOM messages that a
-/// machine would have when the scan's sweep is over: all that the log has before the scan, and what
-/// follows up to the sweep's end. Messages stamped by a clock that is not the scans' are left out.
-///
-/// It begins at `start`, or where the odometry does.
-Replay replay(const Log& log, const LineMap& map, const LocalizerSettings& settings,
-              const std::optional<Pose2>& start);
-
 /// What is known of the vehicle before the first scan.
 struct Beginning {
   bool is_anywhere = false;            ///< nothing at all
@@ -34,8 +26,34 @@ struct Beginning {
   std::optional<Matrix3d> covariance;  ///< none: the localizer's own
 };
 
-/// The same from any beginning; `places`, if given, is the index of the map for searches.
+/// Gives each scan its own odometry pose, and the localizer those of the log's ODOM messages that a
+/// machine would have when the scan's sweep is over: all that the log has before the scan, and what
+/// follows up to the sweep's end. Messages stamped by a clock that is not the scans' are left out.
+///
+/// `places`, if given, is the index of the map for searches.
 Replay replay(const Log& log, const LineMap& map, const LocalizerSettings& settings,
               const Beginning& beginning, std::shared_ptr<const PlaceIndex> places);
+
+/// The same of scans that come one by one.
+class Replayer {
+ public:
+  /// `odometry`: the log's ODOM messages; all that is given must outlive it.
+  Replayer(const std::vector<StampedPose>& odometry, const LineMap& map,
+           const LocalizerSettings& settings, const Beginning& beginning,
+           std::shared_ptr<const PlaceIndex> places = nullptr);
+
+  EstimateRow add(const LogScan& entry);
+  const Localizer& localizer() const { return localizer_; }
+
+ private:
+  void feed_odometry(const LogScan& entry);
+
+  const std::vector<StampedPose>& odometry_;
+  const LocalizerSettings& settings_;
+  Beginning beginning_;
+  Localizer localizer_;
+  std::size_t next_message_ = 0;  // each goes to the localizer at most once
+  bool has_begun_ = false;
+};
 
 }  // namespace adit

@@ -8,7 +8,6 @@
 #include "adit/calibration/log_settings.hpp"
 #include "adit/io/plan.hpp"
 #include "adit/survey/plan_difference.hpp"
-#include "adit/survey/posed_scan.hpp"
 #include "adit/survey/walls.hpp"
 #include "survey_call.hpp"
 
@@ -26,8 +25,6 @@ struct Surveyed {
   LogSettings settings;
   LogSummary log;
   std::vector<StampedPose> trajectory;  ///< in the log's order
-  std::vector<PosedScan> scans;         ///< that the walls are made of
-  std::vector<int> visits;              ///< of these, where they are known
   std::size_t of_other_lasers = 0;      ///< scans that are in no wall: walls are those of laser 0
   WallMap walls;
   std::size_t keyframes = 0;  ///< of a drive; 0 of known positions

@@ -12,7 +12,7 @@
 
 #include "adit/calibration/log_settings.hpp"
 #include "adit/evaluation/relations.hpp"
-#include "adit/io/carmen.hpp"
+#include "adit/io/log_file.hpp"
 #include "adit/io/relations.hpp"
 #include "adit/io/trajectory.hpp"
 #include "adit/survey/drive_survey.hpp"
@@ -53,22 +53,23 @@ Result<void> judge(const std::string& path, const std::vector<StampedPose>& traj
 }
 
 Result<void> run(int argc, char** argv) {
-  const auto log = read_log(argv[1]);
+  const auto log = LogFile::open(argv[1]);
   if (!log) return tl::unexpected(log.error());
   const auto configuration =
       argc > 5 ? read_configuration(argv[5]) : Result<LoadedConfiguration>{LoadedConfiguration{}};
   if (!configuration) return tl::unexpected(configuration.error());
-  const LogSettings settings = settle(*configuration, *log);
+  const LogSettings settings = settle(*configuration, log->sample());
   const LocalizerSettings& values = settings.configuration.localizer;
   const int threads = argc > 4 ? std::atoi(argv[4]) : 2;
   const double start = seconds();
   const double cpu_start = cpu_seconds();
   DriveSurvey survey(values.odometry, settings.configuration.drive);
-  for (const LogScan& entry : log->scans) {
-    const std::size_t number = static_cast<std::size_t>(entry.scan.scanner);
-    const ScannerModel& scanner = number == 0 ? values.scanner : values.more_scanners[number - 1];
-    survey.add(entry.scan, scanner, entry.odom_from_vehicle);
-  }
+  std::vector<double> stamps;
+  const auto followed = log->visit_scans([&](const LogScan& entry) {
+    survey.add(entry.scan, values.scanner_of(entry.scan), entry.odom_from_vehicle);
+    stamps.push_back(entry.scan.stamp);
+  });
+  if (!followed) return followed;
   fmt::print("tracked {:.1f} s\n", seconds() - start);
   std::string last;
   const auto finished = survey.finish(threads, [&](const char* stage, double) {
@@ -79,12 +80,12 @@ Result<void> run(int argc, char** argv) {
   if (!finished) return tl::unexpected(finished.error());
   const DriveResult& result = *finished;
   fmt::print("closures {}  pairs {}\n", result.closures.size(), result.pairs);
-  fmt::print("scans {}  keyframes {}  {:.1f} s  cpu {:.1f} s  peak {:.0f} MB\n", log->scans.size(),
+  fmt::print("scans {}  keyframes {}  {:.1f} s  cpu {:.1f} s  peak {:.0f} MB\n", log->scans(),
              result.keyframes.size(), seconds() - start, cpu_seconds() - cpu_start,
              peak_megabytes());
   std::vector<StampedPose> trajectory;
   for (std::size_t i = 0; i < result.poses.size(); ++i) {
-    trajectory.push_back({log->scans[i].scan.stamp, result.poses[i].map_from_vehicle});
+    trajectory.push_back({stamps[i], result.poses[i].map_from_vehicle});
   }
   if (argc > 2 && std::string(argv[2]) != "-") {
     if (const auto judged = judge(argv[2], trajectory); !judged) return judged;

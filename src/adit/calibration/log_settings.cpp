@@ -22,7 +22,9 @@ constexpr double kBestSigma = 1e-3;  // m; no scanner of mines is better, whatev
 /// The scatter of scans of one laser, spread evenly over the log.
 std::optional<ScatterEstimate> scatter_of(const Log& log, const LaserSummary& laser) {
   ScatterEstimator estimator;
-  const long stride = std::max(1L, laser.scans / kScansToLearnFrom);
+  const auto held = std::count_if(log.scans.begin(), log.scans.end(),
+                                  [&](const LogScan& entry) { return entry.laser == laser.laser; });
+  const long stride = std::max(1L, static_cast<long>(held) / kScansToLearnFrom);
   long seen = 0;
   for (const LogScan& entry : log.scans) {
     if (entry.laser == laser.laser && seen++ % stride == 0) estimator.add(entry.scan);

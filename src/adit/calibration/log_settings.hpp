@@ -25,7 +25,8 @@ struct LogSettings {
 
 /// What the configuration leaves open comes from the log's own fields, else is estimated from its
 /// ranges, laser by laser: laser i of the log's summary is scanner i of the localizer. A key that
-/// the configuration gives holds for all lasers.
+/// the configuration gives holds for all lasers. The log may hold a sample of its scans, all
+/// through it, under the summary of all.
 LogSettings settle(const LoadedConfiguration& loaded, const Log& log);
 
 }  // namespace adit

@@ -77,54 +77,19 @@ Result<void> check_any_scan(const LogSummary& summary, const std::string& file) 
   return fail(message + "; " + first.message, file, first.first_line);
 }
 
-/// Puts the messages into a log.
-struct Collector {
-  void operator()(LogMessage&& message) {
-    if (auto* scan = std::get_if<LogScan>(&message)) {
-      scan->odometry_before = log.odometry.size();
-      log.scans.push_back(std::move(*scan));
-    } else if (const auto* odometry = std::get_if<LogOdometry>(&message)) {
-      log.odometry.push_back(odometry->odom_from_vehicle);
-    } else if (const auto* truth = std::get_if<LogTruePose>(&message)) {
-      log.true_poses.push_back(truth->map_from_vehicle);
-    }
-  }
-  Log log;
-};
-
-/// Now that every range is known, gives each scan its maximum range.
-void settle_max_ranges(const CarmenReader& reader, std::vector<LogScan>& scans) {
-  struct Settled {
-    LaserId laser;
-    double stated = 0.0;
-    double settled = 0.0;
-  };
-  std::vector<Settled> last;  // one a laser: what a log states hardly ever changes
-  for (LogScan& scan : scans) {
-    auto known = std::find_if(last.begin(), last.end(),
-                              [&](const Settled& s) { return s.laser == scan.laser; });
-    if (known == last.end()) {
-      last.push_back({scan.laser, std::nan(""), 0.0});
-      known = last.end() - 1;
-    }
-    if (known->stated != scan.scan.max_range) {
-      known->stated = scan.scan.max_range;
-      known->settled = reader.max_range(scan.laser, known->stated);
-    }
-    scan.scan.max_range = known->settled;
-  }
-}
-
 Result<Log> finish_log(const CarmenReader& reader, Log log, const std::string& file) {
   log.summary = reader.summary();
   if (const auto checked = check_any_scan(log.summary, file); !checked)
     return tl::unexpected(checked.error());
-  settle_max_ranges(reader, log.scans);
+  MaxRangeSettler settler(reader);
+  for (LogScan& scan : log.scans) settler.settle(scan);
   return log;
 }
 
-template <class Sink>
-Result<void> read_lines(const std::string& path, CarmenReader& reader, Sink&& sink) {
+}  // namespace
+
+Result<void> stream_log(const std::string& path, CarmenReader& reader,
+                        const std::function<void(LogMessage&&)>& sink) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored))
     return fail("expected a file, not a directory", path);
@@ -138,37 +103,26 @@ Result<void> read_lines(const std::string& path, CarmenReader& reader, Sink&& si
     if (message.index() != 0) sink(std::move(message));
   }
   if (lines.error() != nullptr) return fail(lines.error(), path, number + 1);
-  return {};
-}
-
-}  // namespace
-
-Result<LogSummary> stream_log(const std::string& path, const LogOptions& options,
-                              const std::function<void(LogMessage&&)>& sink) {
-  CarmenReader reader(options.max_range_m);
-  if (const auto read = read_lines(path, reader, sink); !read) return tl::unexpected(read.error());
-  LogSummary summary = reader.summary();
-  if (const auto checked = check_any_scan(summary, path); !checked)
-    return tl::unexpected(checked.error());
-  return summary;
+  return check_any_scan(reader.summary(), path);
 }
 
 Result<Log> read_log(const std::string& path, const LogOptions& options) {
   CarmenReader reader(options.max_range_m);
-  Collector collector;
-  if (const auto read = read_lines(path, reader, collector); !read)
-    return tl::unexpected(read.error());
-  return finish_log(reader, std::move(collector.log), path);
+  Log log;
+  const auto read =
+      stream_log(path, reader, [&](LogMessage&& message) { log.add(std::move(message)); });
+  if (!read) return tl::unexpected(read.error());
+  return finish_log(reader, std::move(log), path);
 }
 
 Result<Log> parse_log(std::string_view text, const LogOptions& options, const std::string& file) {
   if (const auto checked = check_text(text.substr(0, kLookedAt), file); !checked)
     return tl::unexpected(checked.error());
   CarmenReader reader(options.max_range_m);
-  Collector collector;
+  Log log;
   Lines lines(text);
-  for (std::string_view line; lines.next(line);) collector(reader.read_line(line));
-  return finish_log(reader, std::move(collector.log), file);
+  for (std::string_view line; lines.next(line);) log.add(reader.read_line(line));
+  return finish_log(reader, std::move(log), file);
 }
 
 std::optional<double> find_range_step(const Log& log, const LaserId& laser) {

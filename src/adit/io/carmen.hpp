@@ -58,6 +58,26 @@ class CarmenReader {
   std::optional<double> last_stamp_;
 };
 
+/// Gives scans the maximum range of their laser, once the reader knows the whole log.
+class MaxRangeSettler {
+ public:
+  /// The reader must outlive it.
+  explicit MaxRangeSettler(const CarmenReader& reader) : reader_(reader) {}
+
+  void settle(LogScan& scan);
+
+ private:
+  /// Of one laser: what a log states hardly ever changes.
+  struct Settled {
+    LaserId laser;
+    double stated = 0.0;
+    double settled = 0.0;
+  };
+
+  const CarmenReader& reader_;
+  std::vector<Settled> last_;
+};
+
 /// What the caller knows better than the log.
 struct LogOptions {
   std::optional<double> max_range_m;
@@ -69,10 +89,10 @@ struct LogOptions {
 std::optional<double> find_range_step(const Log& log, const LaserId& laser);
 
 /// Hands each scan, odometry and true pose of a CARMEN log to `sink` in the file's order; memory
-/// does not grow with the file. Errors: the file cannot be read, is binary, or holds no usable
-/// scan.
-Result<LogSummary> stream_log(const std::string& path, const LogOptions& options,
-                              const std::function<void(LogMessage&&)>& sink);
+/// does not grow with the file. What the reader met is known afterwards. Errors: the file cannot be
+/// read, is binary, or holds no usable scan.
+Result<void> stream_log(const std::string& path, CarmenReader& reader,
+                        const std::function<void(LogMessage&&)>& sink);
 
 /// Reads a whole CARMEN log; every scan has a finite maximum range. Errors as `stream_log`.
 Result<Log> read_log(const std::string& path, const LogOptions& options = {});

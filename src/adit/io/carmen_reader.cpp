@@ -270,4 +270,18 @@ LogSummary CarmenReader::summary() const {
   return out;
 }
 
+void MaxRangeSettler::settle(LogScan& scan) {
+  auto known = std::find_if(last_.begin(), last_.end(),
+                            [&](const Settled& s) { return s.laser == scan.laser; });
+  if (known == last_.end()) {
+    last_.push_back({scan.laser, std::nan(""), 0.0});
+    known = last_.end() - 1;
+  }
+  if (known->stated != scan.scan.max_range) {
+    known->stated = scan.scan.max_range;
+    known->settled = reader_.max_range(scan.laser, known->stated);
+  }
+  scan.scan.max_range = known->settled;
+}
+
 }  // namespace adit

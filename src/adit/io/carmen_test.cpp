@@ -253,11 +253,11 @@ TEST(Carmen, StreamsTheSameMessages) {
   const std::string path =
       folder.write("log.clf", kFlaser + "ODOM 1 2 3 0 0 0 10 host 1\nTRUEPOS 1 2 3 0 0 0 10 h 1\n");
   std::vector<std::size_t> kinds;
-  const auto summary =
-      stream_log(path, {}, [&](LogMessage&& message) { kinds.push_back(message.index()); });
-  ASSERT_TRUE(summary);
+  CarmenReader reader;
+  ASSERT_TRUE(
+      stream_log(path, reader, [&](LogMessage&& message) { kinds.push_back(message.index()); }));
   EXPECT_EQ(kinds, (std::vector<std::size_t>{1, 2, 3}));
-  EXPECT_EQ(summary->scans(), 1);
+  EXPECT_EQ(reader.summary().scans(), 1);
 }
 
 TEST(Carmen, FilesThatCannotBeReadAreErrors) {

@@ -36,4 +36,15 @@ long LogSummary::scans() const {
   return total;
 }
 
+void Log::add(LogMessage&& message) {
+  if (auto* scan = std::get_if<LogScan>(&message)) {
+    scan->odometry_before = odometry.size();
+    scans.push_back(std::move(*scan));
+  } else if (const auto* pose = std::get_if<LogOdometry>(&message)) {
+    odometry.push_back(pose->odom_from_vehicle);
+  } else if (const auto* truth = std::get_if<LogTruePose>(&message)) {
+    true_poses.push_back(truth->map_from_vehicle);
+  }
+}
+
 }  // namespace adit

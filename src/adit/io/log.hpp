@@ -93,6 +93,9 @@ struct Log {
   std::vector<StampedPose> odometry;    ///< odom_from_vehicle of the ODOM messages
   std::vector<StampedPose> true_poses;  ///< map_from_vehicle of the TRUEPOS messages
   LogSummary summary;
+
+  /// Puts a message where it belongs.
+  void add(LogMessage&& message);
 };
 
 }  // namespace adit

@@ -4,23 +4,19 @@
 
 namespace adit {
 
-Box box_of_beams(std::span<const PosedScan> scans, const ScannerModel& scanner) {
-  Box box;
-  for (const PosedScan& posed : scans) {
-    const LaserScan& scan = posed.scan;
-    const Pose2 laser = posed.map_from_vehicle * scan.vehicle_from_laser;
-    const double none_from = scanner.no_return_from(scan.max_range);
-    double longest = -1.0;
-    for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
-      if (scan.has_return(i) && scan.ranges[i] < none_from) {
-        longest = std::max(longest, scan.ranges[i]);
-      }
+void extend_by_beams(const PosedScan& posed, const ScannerModel& scanner, Box& box) {
+  const LaserScan& scan = posed.scan;
+  const double none_from = scanner.no_return_from(scan.max_range);
+  double longest = -1.0;
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
+    if (scan.has_return(i) && scan.ranges[i] < none_from) {
+      longest = std::max(longest, scan.ranges[i]);
     }
-    if (longest < 0.0) continue;
-    // Around the laser whatever its heading: a little too much does no harm.
-    box.extend(Box{laser.translation(), laser.translation()}.padded(longest));
   }
-  return box;
+  if (longest < 0.0) return;
+  const Vector2d laser = (posed.map_from_vehicle * scan.vehicle_from_laser).translation();
+  // Around the laser whatever its heading: a little too much does no harm.
+  box.extend(Box{laser, laser}.padded(longest));
 }
 
 std::optional<SegmentPart> stretch_within(const Segment& s, const Box& box) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 
 #include "adit/map/box.hpp"
 #include "adit/scan/scanner_model.hpp"
@@ -17,8 +16,8 @@ struct SegmentPart {
   double length_m() const { return to_m - from_m; }
 };
 
-/// The box around all beams that met something; empty without any.
-Box box_of_beams(std::span<const PosedScan> scans, const ScannerModel& scanner);
+/// Extends a box by all of a scan's beams that met something.
+void extend_by_beams(const PosedScan& posed, const ScannerModel& scanner, Box& box);
 
 /// The part of a segment that lies in a box (Liang and Barsky 1984); nothing where none does.
 std::optional<SegmentPart> stretch_within(const Segment& s, const Box& box);

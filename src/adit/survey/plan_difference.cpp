@@ -6,6 +6,7 @@
 #include "adit/survey/changed_walls.hpp"
 #include "adit/survey/like_walls.hpp"
 #include "adit/survey/replaced_walls.hpp"
+#include "adit/survey/visits.hpp"
 #include "adit/survey/wall_evidence.hpp"
 
 namespace adit {
@@ -38,34 +39,26 @@ std::vector<Vector2d> places_along(const Segment& s, double step) {
 
 class Comparison {
  public:
-  Comparison(std::span<const Segment> plan, const WallMap& walls, std::span<const PosedScan> scans,
-             const ScannerModel& scanner, const PlanDifferenceOptions& options,
-             const WallOptions& wall_options, std::span<const int> visits)
+  Comparison(std::span<const Segment> plan, const WallMap& walls, const ScannerModel& scanner,
+             const PlanDifferenceOptions& options, const WallOptions& wall_options)
       : plan_(plan),
-        looked_at_(box_of_beams(scans, scanner).padded(options.moved_m)),
+        scanner_(scanner),
         walls_(walls),
         surveyed_(walls.segments()),
         replaced_(surveyed_),
         options_(options),
+        visit_m_(wall_options.visit_m),
         near_surveyed_(surveyed_, options.parallel_rad),
         near_plan_(plan, options.parallel_rad),
         evidence_(scanner, wall_options) {
     for (const SurveyedWallLine& line : walls.lines) {
       for (const SurveyedWall& piece : line.pieces) supports_.push_back(&piece.support);
     }
-    std::vector<int> by_way;
-    if (visits.size() != scans.size()) {
-      by_way = visits_by_way(scans, wall_options.visit_m);
-      visits = by_way;
-    }
-    look(scans, visits);
-    const std::size_t step = scans.size() / kMostObservers + 1;
-    for (std::size_t i = 0; i < scans.size(); i += step) {
-      observers_.push_back(scans[i].map_from_vehicle.translation());
-    }
   }
 
-  PlanDifference run() {
+  Result<PlanDifference> run(const PosedScans& scans, std::span<const int> visits) {
+    if (const auto done = look_about(scans); !done) return tl::unexpected(done.error());
+    if (const auto done = look(scans, visits); !done) return tl::unexpected(done.error());
     for (std::size_t i = 0; i < plan_.size(); ++i) compare_segment(i);
     for (const std::vector<std::size_t>& runs : runs_of_changes(runs_)) add_change(runs);
     add_replacements();
@@ -74,8 +67,20 @@ class Comparison {
   }
 
  private:
+  /// What was looked at, and from where.
+  Result<void> look_about(const PosedScans& scans) {
+    const std::size_t step = scans.size() / kMostObservers + 1;
+    std::size_t i = 0;
+    const auto done = scans.visit([&](const PosedScan& scan) {
+      extend_by_beams(scan, scanner_, looked_at_);
+      if (i++ % step == 0) observers_.push_back(scan.map_from_vehicle.translation());
+    });
+    looked_at_ = looked_at_.padded(options_.moved_m);
+    return done;
+  }
+
   /// Asks all beams about the places of the plan, as if these were surfaces that had been hit.
-  void look(std::span<const PosedScan> scans, std::span<const int> visits) {
+  Result<void> look(const PosedScans& scans, std::span<const int> visits) {
     std::vector<WallHit> hits;
     for (const Segment& s : plan_) {
       const Vector2d normal = perpendicular(s.b - s.a).normalized();
@@ -87,8 +92,12 @@ class Comparison {
     }
     evidence_.add(hits, 0);
     evidence_.finish_adding();
-    for (std::size_t i = 0; i < scans.size(); ++i) evidence_.look_through(scans[i], visits[i]);
+    Visits visit(visits, visit_m_);
+    const auto done = scans.visit([&](const PosedScan& scan) {
+      evidence_.look_through(scan, visit.next(scan.map_from_vehicle));
+    });
     evidence_.finish_looking();
+    return done;
   }
 
   PlanPlace judge(const Vector2d& p, const Vector2d& direction) {
@@ -296,11 +305,13 @@ class Comparison {
   }
 
   std::span<const Segment> plan_;
+  const ScannerModel& scanner_;
   Box looked_at_;
   const WallMap& walls_;
   std::vector<Segment> surveyed_;
   ReplacedWalls replaced_;
   const PlanDifferenceOptions& options_;
+  double visit_m_;
   LikeWalls near_surveyed_;
   LikeWalls near_plan_;
   BeamEvidence evidence_;
@@ -312,11 +323,12 @@ class Comparison {
 
 }  // namespace
 
-PlanDifference compare_with_plan(std::span<const Segment> plan, const WallMap& walls,
-                                 std::span<const PosedScan> scans, const ScannerModel& scanner,
-                                 const PlanDifferenceOptions& options,
-                                 const WallOptions& wall_options, std::span<const int> visits) {
-  return Comparison(plan, walls, scans, scanner, options, wall_options, visits).run();
+Result<PlanDifference> compare_with_plan(std::span<const Segment> plan, const WallMap& walls,
+                                         const PosedScans& scans, const ScannerModel& scanner,
+                                         const PlanDifferenceOptions& options,
+                                         const WallOptions& wall_options,
+                                         std::span<const int> visits) {
+  return Comparison(plan, walls, scanner, options, wall_options).run(scans, visits);
 }
 
 }  // namespace adit

@@ -71,12 +71,13 @@ struct PlanDifference {
 };
 
 /// Compares a plan with the walls surveyed in its frame; `scans` are those of the survey, and tell
-/// what of the plan was seen through and what was not seen at all. `visits` as of survey_walls().
-PlanDifference compare_with_plan(std::span<const Segment> plan, const WallMap& walls,
-                                 std::span<const PosedScan> scans, const ScannerModel& scanner,
-                                 const PlanDifferenceOptions& options = {},
-                                 const WallOptions& wall_options = {},
-                                 std::span<const int> visits = {});
+/// what of the plan was seen through and what was not seen at all; they are gone through twice.
+/// `visits` as of survey_walls(). An Error where the scans cannot be read.
+Result<PlanDifference> compare_with_plan(std::span<const Segment> plan, const WallMap& walls,
+                                         const PosedScans& scans, const ScannerModel& scanner,
+                                         const PlanDifferenceOptions& options = {},
+                                         const WallOptions& wall_options = {},
+                                         std::span<const int> visits = {});
 
 /// The plan with these changes made; all others stay proposals.
 std::vector<Segment> apply_changes(std::span<const Segment> plan,

@@ -40,7 +40,7 @@ std::vector<PosedScan> drive(const std::vector<Segment>& walls) {
 PlanDifference difference(const std::vector<Segment>& plan, const std::vector<Segment>& truth) {
   const auto scans = drive(truth);
   const WallMap walls = survey_walls(scans, sick().model);
-  return compare_with_plan(plan, walls, scans, sick().model);
+  return compare_with_plan(plan, walls, PosedScanList(scans), sick().model).value();
 }
 
 int count(const PlanDifference& d, PlanChange change) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "adit/survey/visits.hpp"
 #include "adit/survey/wall_chains.hpp"
 #include "adit/survey/wall_ends.hpp"
 #include "adit/survey/wall_polyline.hpp"
@@ -12,9 +13,6 @@ namespace {
 constexpr double kShareOfAdding = 0.45;  // of the time, for the progress
 constexpr double kShareOfLooking = 0.45;
 constexpr std::size_t kReportEvery = 64;  // scans
-// Of a visit's way: less is not counted until it adds up to that in a straight line, so that the
-// jitter of a machine that stands makes no visits.
-constexpr double kStride = 0.1;
 
 }  // namespace
 
@@ -26,48 +24,34 @@ std::vector<Segment> WallMap::segments() const {
   return out;
 }
 
-std::vector<int> visits_by_way(std::span<const PosedScan> scans, double visit_m) {
-  const double stride = kStride * visit_m;
-  std::vector<int> visits;
-  double way = 0.0;
-  Vector2d last = scans.empty() ? Vector2d(0.0, 0.0) : scans[0].map_from_vehicle.translation();
-  for (const PosedScan& scan : scans) {
-    const Vector2d here = scan.map_from_vehicle.translation();
-    if ((here - last).norm() >= stride) {
-      way += (here - last).norm();
-      last = here;
-    }
-    visits.push_back(static_cast<int>(way / visit_m));
-  }
-  return visits;
-}
-
-WallMap survey_walls(std::span<const PosedScan> scans, const ScannerModel& scanner,
-                     const WallOptions& given, std::span<const int> visits,
-                     const SurveyProgress& progress) {
+Result<WallMap> survey_walls(const PosedScans& scans, const ScannerModel& scanner,
+                             const WallOptions& given, std::span<const int> visits,
+                             const SurveyProgress& progress) {
   WallOptions options = given;
   options.cell_m = cell_size(scanner, given);
-  std::vector<int> by_way;
-  if (visits.size() != scans.size()) {
-    by_way = visits_by_way(scans, options.visit_m);
-    visits = by_way;
-  }
-  const auto report = [&](std::size_t i, double from, double share) {
-    if (progress && i % kReportEvery == 0) {
-      progress(from + share * static_cast<double>(i) / static_cast<double>(scans.size()));
+  std::size_t done = 0;
+  const auto report = [&](double from, double share) {
+    if (progress && done % kReportEvery == 0) {
+      progress(from + share * static_cast<double>(done) / static_cast<double>(scans.size()));
     }
+    ++done;
   };
   BeamEvidence evidence(scanner, options);
   WallHitFinder finder(scanner, options);
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    report(i, 0.0, kShareOfAdding);
-    evidence.add(finder.find(scans[i]), visits[i]);
-  }
+  Visits adding(visits, options.visit_m);
+  const auto added = scans.visit([&](const PosedScan& scan) {
+    report(0.0, kShareOfAdding);
+    evidence.add(finder.find(scan), adding.next(scan.map_from_vehicle));
+  });
+  if (!added) return tl::unexpected(added.error());
   evidence.finish_adding();
-  for (std::size_t i = 0; i < scans.size(); ++i) {
-    report(i, kShareOfAdding, kShareOfLooking);
-    evidence.look_through(scans[i], visits[i]);
-  }
+  done = 0;
+  Visits looking(visits, options.visit_m);
+  const auto looked = scans.visit([&](const PosedScan& scan) {
+    report(kShareOfAdding, kShareOfLooking);
+    evidence.look_through(scan, looking.next(scan.map_from_vehicle));
+  });
+  if (!looked) return tl::unexpected(looked.error());
   evidence.finish_looking();
 
   const std::vector<WallNode> nodes = find_wall_nodes(evidence, scanner, options);
@@ -78,6 +62,12 @@ WallMap survey_walls(std::span<const PosedScan> scans, const ScannerModel& scann
   join_ends(map.lines, evidence, options);
   if (progress) progress(1.0);
   return map;
+}
+
+WallMap survey_walls(std::span<const PosedScan> scans, const ScannerModel& scanner,
+                     const WallOptions& options, std::span<const int> visits,
+                     const SurveyProgress& progress) {
+  return survey_walls(PosedScanList(scans), scanner, options, visits, progress).value();
 }
 
 }  // namespace adit

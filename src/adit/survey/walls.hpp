@@ -6,7 +6,7 @@
 
 #include "adit/geometry/segment.hpp"
 #include "adit/scan/scanner_model.hpp"
-#include "adit/survey/posed_scan.hpp"
+#include "adit/survey/posed_scans.hpp"
 #include "adit/survey/wall_options.hpp"
 
 namespace adit {
@@ -55,16 +55,18 @@ using SurveyProgress = std::function<void(double)>;
 /// Turns scans with known poses, in the order in which they were taken, into walls.
 ///
 /// What moves is dropped, layers of one wall become one, both sides of a thin wall stay; pieces
-/// follow what was seen to within the tolerance and meet at vertices; gaps stay open. Time is
-/// linear in the beams, memory in the area of walls and of the space between them. The same scans
-/// give the same walls. Scans that belong to one visit can be told by `visits`, one number a scan,
-/// ascending; without it a visit is a stretch of way.
+/// follow what was seen to within the tolerance and meet at vertices; gaps stay open. The scans are
+/// gone through twice. Time is linear in the beams, memory in the area of walls and of the space
+/// between them. The same scans give the same walls. Scans that belong to one visit can be told by
+/// `visits`, one number for every scan, ascending; without it a visit is a stretch of way. An Error
+/// where the scans cannot be read.
+Result<WallMap> survey_walls(const PosedScans& scans, const ScannerModel& scanner,
+                             const WallOptions& options = {}, std::span<const int> visits = {},
+                             const SurveyProgress& progress = {});
+
+/// The same of scans in memory.
 WallMap survey_walls(std::span<const PosedScan> scans, const ScannerModel& scanner,
                      const WallOptions& options = {}, std::span<const int> visits = {},
                      const SurveyProgress& progress = {});
-
-/// The visit of each scan: a new one begins where the vehicle has gone `visit_m` since the last
-/// began.
-std::vector<int> visits_by_way(std::span<const PosedScan> scans, double visit_m);
 
 }  // namespace adit

@@ -6,6 +6,7 @@
 
 #include "adit/simulation/scanner.hpp"
 #include "adit/simulation/world.hpp"
+#include "adit/survey/visits.hpp"
 
 namespace adit {
 namespace {
@@ -187,21 +188,28 @@ TEST(SurveyWalls, GivesTheSameWallsTwice) {
   }
 }
 
-TEST(VisitsByWay, BeginAfterAStretchOfWayNotOfTime) {
+std::vector<int> visits_of(const std::vector<PosedScan>& scans) {
+  Visits visits({}, 2.0);
+  std::vector<int> out;
+  for (const PosedScan& scan : scans) out.push_back(visits.next(scan.map_from_vehicle));
+  return out;
+}
+
+TEST(Visits, BeginAfterAStretchOfWayNotOfTime) {
   std::vector<PosedScan> scans(5);
   scans[3].map_from_vehicle.x = 2.5;
   scans[4].map_from_vehicle.x = 5.0;
-  EXPECT_EQ(visits_by_way(scans, 2.0), (std::vector<int>{0, 0, 0, 1, 2}));
+  EXPECT_EQ(visits_of(scans), (std::vector<int>{0, 0, 0, 1, 2}));
 }
 
-TEST(VisitsByWay, AreNotMadeByTheJitterOfAMachineThatStands) {
+TEST(Visits, AreNotMadeByTheJitterOfAMachineThatStands) {
   Random random(3);
   std::vector<PosedScan> scans(5000);
   for (PosedScan& scan : scans) {
     scan.map_from_vehicle = {0.03 * random.normal(), 0.03 * random.normal(), 0.0};
   }
   scans.back().map_from_vehicle.x = 2.5;
-  const std::vector<int> visits = visits_by_way(scans, 2.0);
+  const std::vector<int> visits = visits_of(scans);
   EXPECT_EQ(visits[4998], 0);
   EXPECT_EQ(visits[4999], 1);
 }
