@@ -183,25 +183,32 @@ class Comparison {
     runs_.push_back(std::move(changed));
   }
 
-  /// Lists what removes walls of the plan, unless it is short and more of these walls stays.
+  /// Whether it is long enough, or a whole wall. Short runs count beside such a one only: round a
+  /// worn corner two of them meet.
+  bool is_listed_alone(const ChangedRun& run) const {
+    const double whole = plan_[static_cast<std::size_t>(run.piece.segment)].length();
+    return run.piece.stretch.length_m() >= std::min(options_.min_length_m, whole);
+  }
+
+  /// Lists what removes walls of the plan, unless all of it is short.
   void add_change(std::span<const std::size_t> runs) {
     PlanChangeItem item;
     item.change = runs_[runs.front()].change;
-    double whole = 0.0;
+    bool is_long = false;
     double count = 0.0;
     for (const std::size_t r : runs) {
       const ChangedRun& run = runs_[r];
       item.pieces.push_back(run.piece);
       item.removed.push_back(run.removed);
       item.length_m += run.piece.stretch.length_m();
-      whole += plan_[static_cast<std::size_t>(run.piece.segment)].length();
+      is_long = is_long || is_listed_alone(run);
       for (const ChangedPlace& place : run.places) {
         item.offset_m += place.offset_m;
         item.seen_through += place.share_through;
         count += 1.0;
       }
     }
-    if (item.length_m < std::min(options_.min_length_m, whole)) return;
+    if (!is_long) return;
     item.offset_m /= count;
     item.seen_through /= count;
     if (item.change == PlanChange::moved) claim_replacements(runs);
