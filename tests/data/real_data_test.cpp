@@ -26,7 +26,8 @@ Replay localise(const std::string& log_path, const std::vector<Segment>& plan,
   const Log log = value_of(read_log(log_path));
   const LogSettings settings = settle({}, log);
   const LineMap map = LineMap::build(plan, settings.configuration.map);
-  Replay result = replay(log, map, settings.configuration.localizer, start);
+  Replay result =
+      replay(log, map, settings.configuration.localizer, {false, start, std::nullopt}, nullptr);
   EXPECT_EQ(result.rows.size(), log.scans.size());
   for (std::size_t i = 0; i < std::min(result.rows.size(), log.scans.size()); ++i) {
     const EstimateRow& row = result.rows[i];

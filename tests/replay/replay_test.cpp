@@ -32,13 +32,13 @@ class Drive : public ::testing::Test {
   }
 
   std::string replayed(const Log& log) const {
-    return format_estimates(replay(log, map_, settings_, start()).rows);
+    return format_estimates(replay(log, map_, settings_, start(), nullptr).rows);
   }
-  Pose2 start() const { return recording_.first_guess.pose; }
+  Beginning start() const { return {false, recording_.first_guess.pose, std::nullopt}; }
 
   /// What a machine says: it uses a scan when its sweep is over, and has the wheels until then.
   std::vector<EstimateRow> live(Localizer& localizer, std::size_t& fed) const {
-    localizer.start(start());
+    localizer.start(recording_.first_guess.pose);
     std::vector<EstimateRow> rows;
     for (std::size_t i = 0; i < recording_.scans.size(); ++i) {
       const double sweep_end = recording_.scans[i].stamp + 0.5 * settings_.scanner.sweep_s;
@@ -90,7 +90,7 @@ TEST_F(Drive, MessagesInAnyOrderAreTakenIn) {
   Log many = log_;
   many.odometry.assign(200000, log_.odometry.front());
   for (const Log& log : {reversed, at_once, many}) {
-    const Replay result = replay(log, map_, settings_, start());
+    const Replay result = replay(log, map_, settings_, start(), nullptr);
     ASSERT_EQ(result.rows.size(), recording_.truth.size());
     for (std::size_t i = 0; i < result.rows.size(); ++i) {
       const Vector2d truth = recording_.truth[i].pose.translation();
@@ -104,7 +104,7 @@ TEST_F(Drive, SaysWhatWasLearnt) {
   Localizer localizer(map_, settings_);
   std::size_t fed = 0;
   live(localizer, fed);
-  const Replay result = replay(log_, map_, settings_, start());
+  const Replay result = replay(log_, map_, settings_, start(), nullptr);
   EXPECT_EQ(result.map_error.offset_sigma_m, localizer.map_error().offset_sigma_m);
   EXPECT_EQ(result.map_error.length_m, localizer.map_error().length_m);
   EXPECT_EQ(result.map_error.roughness_sigma_m, localizer.map_error().roughness_sigma_m);
@@ -118,7 +118,7 @@ TEST_F(Drive, SaysWhatWasMet) {
   std::swap(odd.scans[10].scan.stamp, odd.scans[11].scan.stamp);
   for (std::size_t i = 20; i < count; ++i) odd.scans[i].scan.stamp += 10.0;
   for (std::size_t i = 30; i < count; ++i) odd.scans[i].scan.stamp += 1e6;
-  const Replay result = replay(odd, map_, settings_, start());
+  const Replay result = replay(odd, map_, settings_, start(), nullptr);
   EXPECT_EQ(result.stamps.duplicates, 1);
   EXPECT_EQ(result.stamps.late, 1);
   EXPECT_EQ(result.stamps.gaps, 1);
