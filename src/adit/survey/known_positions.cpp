@@ -17,7 +17,8 @@ constexpr double kFineTurn = radians(0.1);
 constexpr double kFitReach = 0.5;   // m: hits farther from a wall are not fitted to it
 constexpr double kFitScale = 0.15;  // m: where a hit's pull is halved; the walls' own roughness
 constexpr int kFitSteps = 3;
-constexpr double kClearlyBetter = 0.02;  // of the beams: else a scan's heading stays
+constexpr double kSettled = radians(0.02);  // stations that turn less, root mean square, stay
+constexpr double kClearlyBetter = 0.02;     // of the beams: else a scan's heading stays
 constexpr double kSteep = radians(75.0);
 constexpr double kMostTilt = 3.0;  // sigmas
 constexpr double kLikeWall = 0.6;  // cosine between a hit's normal and its wall's
@@ -76,11 +77,13 @@ class StationSurvey {
     }
     make_walls();
     report(0.7);
-    for (int round = 0; round < options_.rounds; ++round) {
-      improve_against_walls();
+    bool settled = false;
+    for (int round = 0; round < options_.rounds && !settled; ++round) {
+      settled = improve_against_walls() < kSettled;
       make_walls();
       report(0.7 + 0.3 * (round + 1) / options_.rounds);
     }
+    report(1.0);
     // Walls tell a heading better than the stations among themselves.
     for (auto scan = survey_.scans.rbegin(); scan != survey_.scans.rend(); ++scan) {
       survey_.stations[static_cast<std::size_t>(scan->station)].heading.heading_rad =
@@ -214,20 +217,29 @@ class StationSurvey {
     survey_.walls = survey_walls(posed, scanner_, walls_, survey_.visits);
   }
 
-  /// Turns each scan onto the walls of all, then takes out its tilt.
-  void improve_against_walls() {
+  /// Turns each scan onto the walls of all, then takes out its tilt. By how much the stations
+  /// turned (rad, root mean square).
+  double improve_against_walls() {
     const std::vector<Segment> segments = survey_.walls.segments();
     const LineMap map = LineMap::build(segments);
+    std::vector<double> turns(survey_.stations.size(), 0.0);
     for (std::size_t i = 0; i < given_.size(); ++i) {
       const LaserScan& scan = given_[i].scan;
       SurveyedScan& found = survey_.scans[i];
+      const double before = found.map_from_vehicle.theta;
       found.map_from_vehicle.theta = likelier_heading(map, i);
       turn_onto(map, scan, found.map_from_vehicle);
       keep_near_given(given_[i].heading, found.map_from_vehicle.theta);
       const std::vector<double> ranges = ranges_to_walls(map, scan, found.map_from_vehicle);
       found.tilt = estimate_tilt(scan, ranges, options_.tilt);
       level_[i] = level_scan(scan, ranges, found.tilt, options_.tilt, scanner_);
+      const auto station = static_cast<std::size_t>(found.station);
+      turns[station] += angle_between(before, found.map_from_vehicle.theta) /
+                        static_cast<double>(survey_.stations[station].scans);
     }
+    double squares = 0.0;
+    for (const double turn : turns) squares += turn * turn / static_cast<double>(turns.size());
+    return std::sqrt(squares);
   }
 
   /// The scan's heading, or the one the other way or its station's where walls speak for that; none

@@ -24,7 +24,7 @@ struct KnownPositionsOptions {
   GivenHeadings headings = GivenHeadings::automatic;
   double same_station_m = 0.05;
   double turn_within_station_rad = kPi;
-  int rounds = 3;
+  int rounds = 15;
   int min_scans = 2;
   double min_hits_per_m = 5.0;
   double gap_m = 1.5;
@@ -40,7 +40,9 @@ struct KnownPositionsOptions {
     field("turn_within_station_rad", self.turn_within_station_rad,
           "how far the scanner may turn between the scans of a station (rad)");
     field("rounds", self.rounds,
-          "how often scans are turned and levelled against the walls and the walls made anew");
+          "how often at most scans are turned and levelled against the walls and the walls made "
+          "anew: "
+          "until the stations stay, as those of one gallery turn together and slowly");
     field("min_scans", self.min_scans,
           "as of walls from a drive; less, as few scans come from known positions");
     field("min_hits_per_m", self.min_hits_per_m, "as of walls from a drive; less, for the same");

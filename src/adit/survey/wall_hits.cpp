@@ -20,13 +20,18 @@ double surface_reach(const ScannerModel& scanner) {
 const std::vector<WallHit>& WallHitFinder::find(const PosedScan& posed) {
   const LaserScan& scan = posed.scan;
   hits_.clear();
+  lone_.clear();
   gather_points(scan);
   const Pose2 map_from_laser = posed.map_from_vehicle * scan.vehicle_from_laser;
   std::size_t begin = 0;
   while (begin < points_.size()) {
     std::size_t end = begin + 1;
     while (end < points_.size() && same_surface(end - 1, std::abs(scan.bearing_step))) ++end;
-    if (end - begin > kNeighbours) add_run(posed, map_from_laser, begin, end);
+    if (end - begin > kNeighbours) {
+      add_run(posed, map_from_laser, begin, end);
+    } else {
+      add_lone(map_from_laser, begin, end);
+    }
     begin = end;
   }
   return hits_;
@@ -77,29 +82,45 @@ void WallHitFinder::add_run(const PosedScan& posed, const Pose2& map_from_laser,
                             std::size_t end) {
   const RigidTransform carry_out(map_from_laser);
   const double reach = surface_reach(scanner_);
-  const double least_cosine = std::cos(options_.max_incidence_rad);
-  const double range_variance = scanner_.beam_sigma_m() * scanner_.beam_sigma_m();
   for (std::size_t i = begin; i < end; ++i) {
-    const Vector2d to_laser = -points_[i] / ranges_[i];
-    Vector2d normal = perpendicular(line_around(i, begin, end, reach).direction);
-    double cosine = normal.dot(to_laser);
-    if (cosine < 0.0) {
-      normal = -normal;
-      cosine = -cosine;
+    const Vector2d direction = line_around(i, begin, end, reach).direction;
+    const LoneBeam beam{carry_out.point(points_[i]), ranges_[i]};
+    if (const auto hit = hit_along(posed, beam, carry_out.direction(direction))) {
+      hits_.push_back(*hit);
     }
-    if (cosine < least_cosine) continue;
-    WallHit hit{carry_out.point(points_[i]), carry_out.direction(normal), 0.0, 0.0, ranges_[i]};
-    const double sine_squared = 1.0 - cosine * cosine;
-    const double sideways = scanner_.bearing_sigma_rad * ranges_[i];
-    hit.noise_variance = range_variance * (cosine * cosine + kSlope * kSlope * sine_squared) +
-                         sideways * sideways * sine_squared;
-    const Vector2d lever = hit.point - posed.map_from_vehicle.translation();
-    const Vector3d g(hit.normal.x(), hit.normal.y(), cross(lever, hit.normal));
-    const double turn = g.z() * options_.pose_sigma_rad;
-    hit.pose_variance =
-        g.dot(posed.covariance * g) + options_.pose_sigma_m * options_.pose_sigma_m + turn * turn;
-    hits_.push_back(hit);
   }
+}
+
+void WallHitFinder::add_lone(const Pose2& map_from_laser, std::size_t begin, std::size_t end) {
+  const RigidTransform carry_out(map_from_laser);
+  for (std::size_t i = begin; i < end; ++i) {
+    if (ranges_[i] >= 0.0) lone_.push_back({carry_out.point(points_[i]), ranges_[i]});
+  }
+}
+
+std::optional<WallHit> WallHitFinder::hit_along(const PosedScan& posed, const LoneBeam& beam,
+                                                const Vector2d& direction) const {
+  const Pose2 map_from_laser = posed.map_from_vehicle * posed.scan.vehicle_from_laser;
+  const Vector2d to_laser = (map_from_laser.translation() - beam.point) / beam.range;
+  Vector2d normal = perpendicular(direction);
+  double cosine = normal.dot(to_laser);
+  if (cosine < 0.0) {
+    normal = -normal;
+    cosine = -cosine;
+  }
+  if (cosine < std::cos(options_.max_incidence_rad)) return std::nullopt;
+  WallHit hit{beam.point, normal, 0.0, 0.0, beam.range};
+  const double range_variance = scanner_.beam_sigma_m() * scanner_.beam_sigma_m();
+  const double sine_squared = 1.0 - cosine * cosine;
+  const double sideways = scanner_.bearing_sigma_rad * beam.range;
+  hit.noise_variance = range_variance * (cosine * cosine + kSlope * kSlope * sine_squared) +
+                       sideways * sideways * sine_squared;
+  const Vector2d lever = hit.point - posed.map_from_vehicle.translation();
+  const Vector3d g(hit.normal.x(), hit.normal.y(), cross(lever, hit.normal));
+  const double turn = g.z() * options_.pose_sigma_rad;
+  hit.pose_variance =
+      g.dot(posed.covariance * g) + options_.pose_sigma_m * options_.pose_sigma_m + turn * turn;
+  return hit;
 }
 
 }  // namespace adit

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "adit/geometry/moments.hpp"
@@ -18,6 +20,12 @@ struct WallHit {
   double range = 0.0;                   ///< from the scanner (m)
 };
 
+/// A beam that met something of which it does not tell the direction.
+struct LoneBeam {
+  Vector2d point = Vector2d::Zero();  ///< in the map
+  double range = 0.0;                 ///< from the scanner (m)
+};
+
 /// Turns scans into hits; keeps its buffers from scan to scan.
 class WallHitFinder {
  public:
@@ -28,11 +36,20 @@ class WallHitFinder {
   /// same surface; beams without neighbours (legs, edges, mixed ranges) are no hits.
   const std::vector<WallHit>& find(const PosedScan& posed);
 
+  /// Of the scan of the last `find`: the beams that met something but have no neighbours.
+  const std::vector<LoneBeam>& lone() const { return lone_; }
+
+  /// The hit of a beam that met a surface which lies along this direction of the map; nothing where
+  /// it met it too flat.
+  std::optional<WallHit> hit_along(const PosedScan& posed, const LoneBeam& beam,
+                                   const Vector2d& direction) const;
+
  private:
   void gather_points(const LaserScan& scan);
   bool same_surface(std::size_t beam, double step) const;
   void add_run(const PosedScan& posed, const Pose2& map_from_laser, std::size_t begin,
                std::size_t end);
+  void add_lone(const Pose2& map_from_laser, std::size_t begin, std::size_t end);
   LineFit line_around(std::size_t beam, std::size_t begin, std::size_t end, double reach);
 
   ScannerModel scanner_;
@@ -40,6 +57,24 @@ class WallHitFinder {
   std::vector<Vector2d> points_;  // laser frame
   std::vector<double> ranges_;    // below zero: no return
   std::vector<WallHit> hits_;
+  std::vector<LoneBeam> lone_;
+};
+
+/// Turns scans that were taken from one place into hits. Beams that have no neighbours in their own
+/// scan, as far and flat walls are met by few, may have them in the others.
+class PlaceHitFinder {
+ public:
+  PlaceHitFinder(const ScannerModel& scanner, const WallOptions& options)
+      : scanner_(scanner), finder_(scanner, options) {}
+
+  /// The hits of each scan; those of a scan alone are those of WallHitFinder.
+  const std::vector<std::vector<WallHit>>& find(std::span<const PosedScan> scans);
+
+ private:
+  ScannerModel scanner_;
+  WallHitFinder finder_;
+  std::vector<std::vector<WallHit>> hits_;
+  std::vector<std::vector<LoneBeam>> lone_;
 };
 
 /// How far around a beam its surface is looked at (m): enough for a direction under this noise.

@@ -46,5 +46,40 @@ TEST(WallHitFinder, CountsTheHeadingsErrorMoreTheFartherTheWall) {
   EXPECT_LT(near, 0.1 * far);
 }
 
+/// A short piece of wall, seen flat from afar: two beams of each scan end on it.
+std::vector<PosedScan> scans_of_a_far_bump(int count) {
+  const std::vector<Segment> bump{{{20.0, 3.0}, {20.8, 3.0}}};
+  std::vector<PosedScan> scans;
+  for (int i = 0; i < count; ++i) {
+    scans.push_back(scan_of(bump, {0.0, 0.0, radians(0.09 * i)}));
+  }
+  return scans;
+}
+
+std::size_t count_hits(PlaceHitFinder& finder, const std::vector<PosedScan>& scans) {
+  std::size_t count = 0;
+  for (const std::vector<WallHit>& hits : finder.find(scans)) {
+    for (const WallHit& hit : hits) EXPECT_GT(std::abs(hit.normal.y()), 0.9);
+    count += hits.size();
+  }
+  return count;
+}
+
+TEST(PlaceHitFinder, FindsNeighboursInTheOtherScansOfThePlace) {
+  PlaceHitFinder finder(sick().model, {});
+  EXPECT_EQ(count_hits(finder, scans_of_a_far_bump(1)), 0u);
+  EXPECT_GT(count_hits(finder, scans_of_a_far_bump(8)), 0u);
+}
+
+TEST(PlaceHitFinder, MakesNoWallOfAPost) {
+  const std::vector<Segment> post{{{4.0, -0.01}, {4.0, 0.01}}};
+  std::vector<PosedScan> scans;
+  for (int i = 0; i < 8; ++i) scans.push_back(scan_of(post, {0.0, 0.0, 0.0}));
+  PlaceHitFinder finder(sick().model, {});
+  std::size_t count = 0;
+  for (const std::vector<WallHit>& hits : finder.find(scans)) count += hits.size();
+  EXPECT_EQ(count, 0u);
+}
+
 }  // namespace
 }  // namespace adit

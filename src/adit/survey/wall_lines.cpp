@@ -144,15 +144,25 @@ double distance_about(const FittedPieces& fitted, std::size_t piece, const Vecto
   return least;
 }
 
+/// How many points a piece has at the least that is not taken for a stray: more at the open end of
+/// a line.
+std::size_t least_points(const WallOptions& options, bool at_end) {
+  constexpr std::size_t kLeast = 2;
+  const double stray = kStrayOfTolerance * options.tolerance_m;
+  return at_end ? kLeast + static_cast<std::size_t>(stray / node_spacing(options)) : kLeast;
+}
+
 /// The point of a piece that is farthest from the walls, if that is more than the tolerance and
-/// the piece can be broken there, with two points or more on either side; else nothing.
+/// the piece can be broken there; else nothing.
 std::optional<std::size_t> stray(std::span<const Vector2d> points, const FittedPieces& fitted,
-                                 std::size_t piece, double tolerance) {
+                                 std::size_t piece, const WallOptions& options) {
   const std::size_t begin = fitted.begins[piece];
   const std::size_t end = fitted.end_of(piece, points.size());
-  if (end - begin < 4) return std::nullopt;
+  const std::size_t before = least_points(options, !fitted.closed && piece == 0);
+  const std::size_t after = least_points(options, !fitted.closed && end == points.size());
+  if (end - begin < before + after) return std::nullopt;
   std::optional<std::size_t> farthest;
-  double most = tolerance;
+  double most = options.tolerance_m;
   for (std::size_t i = begin; i < end; ++i) {
     const double d = distance_about(fitted, piece, points[i]);
     if (d <= most) continue;
@@ -160,7 +170,7 @@ std::optional<std::size_t> stray(std::span<const Vector2d> points, const FittedP
     farthest = i;
   }
   if (!farthest) return std::nullopt;
-  return std::clamp(*farthest, begin + 2, end - 2);
+  return std::clamp(*farthest, begin + before, end - after);
 }
 
 /// Pieces that follow the points to within the tolerance. Vertices that two pieces share may draw
@@ -175,7 +185,7 @@ FittedPieces fit_pieces(std::span<const Vector2d> points, bool closed, const Wal
     std::vector<std::size_t> begins;
     for (std::size_t i = 0; i < fitted.begins.size(); ++i) {
       begins.push_back(fitted.begins[i]);
-      const auto at = stray(points, fitted, i, options.tolerance_m);
+      const auto at = stray(points, fitted, i, options);
       if (!at) continue;
       begins.push_back(*at);
       strays = true;

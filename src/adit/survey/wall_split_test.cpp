@@ -73,5 +73,22 @@ TEST(FitVertices, CloseARing) {
   EXPECT_NEAR((vertices[2] - Vector2d(3.0, 3.0)).norm(), 0.0, 1e-3);
 }
 
+TEST(FitVertices, KeepsTheVertexBetweenNearlyParallelPiecesAtTheirBreak) {
+  // A rib that is a hair wavy, in two pieces: no point tells where along it they meet.
+  std::vector<Vector2d> points;
+  for (int i = 0; i < 60; ++i) {
+    const double x = 0.1 * i;
+    points.emplace_back(x, (i < 30 ? 0.004 * x : 0.024 - 0.004 * x) + 0.01 * std::sin(7.0 * x));
+  }
+  const std::vector<std::size_t> begins{0, 30};
+  const auto vertices = fit_vertices(points, begins, false, 0.3);
+  ASSERT_EQ(vertices.size(), 3u);
+  EXPECT_NEAR(vertices[1].x(), 2.95, 0.1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Segment piece{vertices[i < 30 ? 0 : 1], vertices[i < 30 ? 1 : 2]};
+    EXPECT_LT(distance(piece, points[i]), 0.03);
+  }
+}
+
 }  // namespace
 }  // namespace adit

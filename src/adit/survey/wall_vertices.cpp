@@ -106,6 +106,21 @@ class NormalEquations {
   std::vector<Eigen::Triplet<double>> entries_;
 };
 
+/// Holds the vertex after a piece along the wall to where the points pass from this piece to the
+/// next, by as much as one point: pieces that meet at a flat angle do not tell where they meet, and
+/// the vertex would slide away from its points.
+void hold_at_break(const Layout& layout, std::size_t piece, std::span<const Vector2d> vertices,
+                   NormalEquations& equations) {
+  const Vector2d& end = layout.of(piece).back();
+  const Vector2d& begin = layout.of((piece + 1) % layout.pieces()).front();
+  const Vector2d way = begin - end;
+  if (way.squaredNorm() < 1e-12) return;
+  const Vector2d along = way.normalized();
+  const std::size_t vertex = layout.vertex_after(piece);
+  const double residual = along.dot(0.5 * (end + begin) - vertices[vertex]);
+  equations.add(vertex, -along, vertex, Vector2d::Zero(), residual);
+}
+
 void improve(const Layout& layout, std::vector<Vector2d>& vertices) {
   NormalEquations equations(vertices.size());
   for (std::size_t piece = 0; piece < layout.pieces(); ++piece) {
@@ -119,6 +134,10 @@ void improve(const Layout& layout, std::vector<Vector2d>& vertices) {
       const double u = std::clamp((p - vertices[a]).dot(along) / squared, 0.0, 1.0);
       equations.add(a, -(1.0 - u) * normal, b, -u * normal, normal.dot(p - vertices[a]));
     }
+  }
+  const std::size_t breaks = layout.closed ? layout.pieces() : layout.pieces() - 1;
+  for (std::size_t piece = 0; piece < breaks; ++piece) {
+    hold_at_break(layout, piece, vertices, equations);
   }
   const Eigen::VectorXd step = equations.solve();
   for (std::size_t i = 0; i < vertices.size(); ++i) {

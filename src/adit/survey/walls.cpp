@@ -12,7 +12,36 @@ namespace {
 
 constexpr double kShareOfAdding = 0.45;  // of the time, for the progress
 constexpr double kShareOfLooking = 0.45;
+constexpr std::size_t kTogether = 32;     // scans of a place at most whose beams are neighbours
 constexpr std::size_t kReportEvery = 64;  // scans
+
+/// Turns scans into hits for the evidence.
+class HitAdder {
+ public:
+  HitAdder(const ScannerModel& scanner, const WallOptions& options, BeamEvidence& evidence)
+      : scans_(scanner, options), places_(scanner, options), evidence_(evidence) {}
+
+  void add(const PosedScan& scan, int visit) { evidence_.add(scans_.find(scan), visit); }
+
+  /// Of a scan whose visit is a place: it waits for the others from there.
+  void add_of_place(const PosedScan& scan, int visit) {
+    if (!place_.empty() && (visit != visit_ || place_.size() == kTogether)) finish();
+    visit_ = visit;
+    place_.push_back(scan);
+  }
+  void finish() {
+    if (place_.empty()) return;
+    for (const std::vector<WallHit>& hits : places_.find(place_)) evidence_.add(hits, visit_);
+    place_.clear();
+  }
+
+ private:
+  WallHitFinder scans_;
+  PlaceHitFinder places_;
+  BeamEvidence& evidence_;
+  std::vector<PosedScan> place_;
+  int visit_ = 0;
+};
 
 }  // namespace
 
@@ -37,13 +66,16 @@ Result<WallMap> survey_walls(const PosedScans& scans, const ScannerModel& scanne
     ++done;
   };
   BeamEvidence evidence(scanner, options);
-  WallHitFinder finder(scanner, options);
+  HitAdder hits(scanner, options, evidence);
   Visits adding(visits, options.visit_m);
+  const bool by_place = !visits.empty();
   const auto added = scans.visit([&](const PosedScan& scan) {
     report(0.0, kShareOfAdding);
-    evidence.add(finder.find(scan), adding.next(scan.map_from_vehicle));
+    const int visit = adding.next(scan.map_from_vehicle);
+    by_place ? hits.add_of_place(scan, visit) : hits.add(scan, visit);
   });
   if (!added) return tl::unexpected(added.error());
+  hits.finish();
   evidence.finish_adding();
   done = 0;
   Visits looking(visits, options.visit_m);
