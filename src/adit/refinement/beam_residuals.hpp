@@ -62,6 +62,7 @@ class BeamResiduals {
                std::size_t stride = 1, const WallDoubt& doubt = {});
 
   std::span<const BeamResidual> beams() const { return {beams_.data(), size_}; }
+  std::span<BeamResidual> beams() { return {beams_.data(), size_}; }
   /// Beams with a return where the map has nothing in range.
   int unmapped() const { return unmapped_; }
   /// Log of their density, anywhere within reach, against one over the range that was measured.

@@ -92,8 +92,9 @@ void MapErrorEstimator::close_cell(const Matrix3d& covariance) {
     within_ += (scatter - (cell_.beams - 1.0)) / cell_.weight * cell_.beams;
     within_count_ += cell_.beams - 1.0;
   }
+  const Vector3d carried = covariance * cell_.gradient;
   const auto product = [&](const Cell& other) {
-    return cell_.residual * other.residual + cell_.gradient.dot(covariance * other.gradient);
+    return cell_.residual * other.residual + carried.dot(other.gradient);
   };
   products_[0] += product(cell_) - 1.0 / cell_.weight;
   counts_[0] += 1.0;

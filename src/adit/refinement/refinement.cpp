@@ -7,6 +7,7 @@
 
 #include "adit/information/beam.hpp"
 #include "adit/refinement/corner_zone.hpp"
+#include "adit/refinement/sweep_equations.hpp"
 
 namespace adit {
 namespace {
@@ -29,57 +30,21 @@ constexpr std::size_t kCoarseBeams = 250;
 constexpr double kCoarseLength = 2.0;
 constexpr int kMostCoarse = 3;
 
+// A step of more sigmas than the options allow may be the last all the same, up to this length:
+// over so short a way the map looks the same but for a beam or two at an edge.
+constexpr double kSmoothLength = 3.0;
+constexpr double kSmoothMetres = 0.02;
+constexpr double kSmoothTurn = radians(0.2);
+
 // After so many steps they are shortened; at the end one of so many sigmas is still accepted.
 constexpr int kFullSteps = 5;
 constexpr double kAcceptedLength = 2.0;
-
-// Less likely than this to have met the wall: the beam is left out.
-constexpr double kLeastProbability = 0.01;
 
 // Of the walls' offsets, where what they say of the pose is weighed, for walls that are smoother
 // than the process that they are taken for. One whose correlation is Gaussian has 0.94 times that
 // process' amplitude at long waves, which place a pose across a drift, and up to 1.29 times at
 // waves of 3 to 5 times its length, which bends show; this lies between.
 constexpr double kSmoothWalls = 1.03;
-
-// Of odometry's errors in the two halves of a sweep. Wheels slip and scales are off for longer than
-// a sweep lasts, but not only.
-constexpr double kHalvesCorrelation = 1.0 / 3.0;
-
-/// The gradient over the pose and, on the move, over the correction of the sweep's motion.
-template <int N>
-Eigen::Matrix<double, N, 1> parameters_gradient(const BeamResidual& beam, const RigidTransform& map,
-                                                const SweepCorrection& correction) {
-  if constexpr (N == 3) {
-    return beam.gradient;
-  } else {
-    const Vector2d across = beam.gradient.head<2>();
-    const Vector3d in_vehicle(across.dot(map.axis_x), across.dot(map.axis_y), beam.gradient.z());
-    const std::array<double, 2> share = correction.shares(beam.tau);
-    Eigen::Matrix<double, 9, 1> gradient;
-    gradient << beam.gradient, share[0] * in_vehicle, share[1] * in_vehicle;
-    return gradient;
-  }
-}
-
-/// How the first three parameters follow the others where these are free.
-Eigen::Matrix<double, 3, 6> gain_of(const NormalEquations<9>& all) {
-  return all.information.topRightCorner<3, 6>() *
-         all.information.bottomRightCorner<6, 6>().inverse();
-}
-
-/// A part of the equations on the first three parameters, the others having followed by `gain`.
-NormalEquations<3> marginal(const NormalEquations<9>& part,
-                            const Eigen::Matrix<double, 3, 6>& gain) {
-  const Eigen::Matrix<double, 3, 6> left =
-      part.information.topRightCorner<3, 6>() - gain * part.information.bottomRightCorner<6, 6>();
-  NormalEquations<3> out;
-  out.information = part.information.topLeftCorner<3, 3>() -
-                    gain * part.information.bottomLeftCorner<6, 3>() - left * gain.transpose();
-  out.score = part.score.head<3>() - gain * part.score.tail<6>();
-  out.chi_square = part.chi_square;
-  return out;
-}
 
 /// Adds what a run of beams on a wall says to what the wall has said before.
 template <int N>
@@ -97,24 +62,6 @@ void add_share(int wall, const NormalEquations<N>& equations, std::vector<WallSh
 WallDoubt doubt_of(const RefinementInput& input, const Matrix3d& spread) {
   return {spread, input.map_error.sigma_m(), input.map_error.distortion_ratio,
           input.scanner.beam_sigma_m()};
-}
-
-/// Dead reckoning's word on the correction. What is known is the covariance C of the whole sweep's
-/// mean motion. Between an error that is steady and a random walk lie halves whose errors are
-/// correlated, by r: each then has 2 C / (1 + r), and the two the information
-/// [1, -r; -r, 1] / (2 - 2 r) times C's inverse.
-void add_motion_prior(const SweepPrior& motion, const SweepCorrection& correction,
-                      NormalEquations<9>& sum) {
-  const Matrix3d own = motion.covariance.inverse() / (2.0 - 2.0 * kHalvesCorrelation);
-  const Matrix3d other = -kHalvesCorrelation * own;
-  const Vector3d first = correction.halves[0].vector();
-  const Vector3d second = correction.halves[1].vector();
-  sum.information.block<3, 3>(3, 3) += own;
-  sum.information.block<3, 3>(6, 6) += own;
-  sum.information.block<3, 3>(3, 6) += other;
-  sum.information.block<3, 3>(6, 3) += other;
-  sum.score.segment<3>(3) -= own * first + other * second;
-  sum.score.segment<3>(6) -= other * first + own * second;
 }
 
 }  // namespace
@@ -151,37 +98,8 @@ const ScanFit& Refiner::refine(const RefinementInput& input, const PoseWithCovar
   fit_.white_information = white_information(input);
   count_beams();
   fit_.log_likelihood = log_likelihood(options);
+  if (fit_.converged) take_last_step(input.motion.has_value());
   return fit_;
-}
-
-void Refiner::count_beams() {
-  const BeamSummary summary = classifier_.summary(residuals_.beams());
-  fit_.counts = summary.counts;
-  fit_.counts.unmapped = residuals_.unmapped();
-  fit_.log_evidence = classifier_.log_evidence();
-  fit_.expected_log_evidence = summary.expected_log_evidence;
-}
-
-std::span<const int> Refiner::worst_walls(std::size_t most) {
-  constexpr double kFewBeamsOff = 3.0;
-  off_wall_.clear();
-  const std::span<const BeamResidual> beams = residuals_.beams();
-  for (std::size_t k = 0; k < beams.size(); ++k) {
-    if (!beams[k].has_return) continue;
-    const int wall = beams[k].wall;
-    auto known = std::find_if(off_wall_.begin(), off_wall_.end(),
-                              [&](const auto& entry) { return entry.first == wall; });
-    if (known == off_wall_.end()) known = off_wall_.insert(known, {wall, 0.0});
-    known->second += 1.0 - classifier_.on_wall()[k];
-  }
-  std::sort(off_wall_.begin(), off_wall_.end(), [](const auto& a, const auto& b) {
-    return a.second != b.second ? a.second > b.second : a.first < b.first;
-  });
-  worst_walls_.clear();
-  for (const auto& [wall, beams_off] : off_wall_) {
-    if (worst_walls_.size() < most && beams_off > kFewBeamsOff) worst_walls_.push_back(wall);
-  }
-  return worst_walls_;
 }
 
 Pose2 Refiner::most_likely(const RefinementInput& input, const PoseWithCovariance& prior,
@@ -272,29 +190,6 @@ void Refiner::accumulate(const MapError& map_error, std::vector<WallShareOf<N>>&
   close_wall();
 }
 
-/// The normal equations if every beam's error were its own.
-template <int N>
-NormalEquations<N> Refiner::white_equations() const {
-  const std::span<const BeamResidual> beams = residuals_.beams();
-  const RigidTransform map_from_vehicle(fit_.pose);
-  NormalEquations<N> white;
-  for (std::size_t k = 0; k < beams.size(); ++k) {
-    const double probability = classifier_.on_wall()[k];
-    if (probability < kLeastProbability) continue;
-    const auto gradient = parameters_gradient<N>(beams[k], map_from_vehicle, fit_.correction);
-    white.add(gradient, beams[k].residual, probability / noise_[k]);
-  }
-  white.mirror();
-  return white;
-}
-
-Matrix3d Refiner::white_information(const RefinementInput& input) const {
-  if (!input.motion) return white_equations<3>().information;
-  NormalEquations<9> white = white_equations<9>();
-  add_motion_prior(*input.motion, fit_.correction, white);
-  return marginal(white, gain_of(white)).information;
-}
-
 /// What the scan says of a vehicle at rest.
 void Refiner::combine_standing(const MapError& map_error) {
   NormalEquations<3> shared;
@@ -355,7 +250,10 @@ bool Refiner::is_last(double length, const RefinementOptions& options) {
   const bool settled = spread_share_ < kNegligibleSpread || spread_share_ > 0.5 * last_share_;
   last_share_ = spread_share_;
   if (fit_.iterations == options.max_iterations) return length < kAcceptedLength;
-  return length < options.step_tolerance && settled;
+  const Vector3d move = difference(fit_.pose, next_);
+  const bool smooth = length < kSmoothLength && move.head<2>().norm() < kSmoothMetres &&
+                      std::abs(move.z()) < kSmoothTurn;
+  return settled && (smooth || length < options.step_tolerance);
 }
 
 }  // namespace adit

@@ -46,7 +46,7 @@ using WallShare = WallShareOf<3>;
 /// The log likelihood near `pose` is score^T d - d^T information d / 2 for a pose that lies d (x,
 /// y, theta; map frame) away. Directions that the scan does not show have no information.
 struct ScanFit {
-  Pose2 pose;  ///< where the likelihood was looked at: the last step's start
+  Pose2 pose;  ///< of scan and prior, most likely
   Matrix3d information = Matrix3d::Zero();
   Vector3d score = Vector3d::Zero();
   /// The information if the offsets of the walls were known: what the noise alone leaves open.
@@ -102,6 +102,9 @@ class Refiner {
   void combine_moving(const MapError& map_error, const SweepPrior& motion);
   void take(const NormalEquations<3>& shared);
   Matrix3d white_information(const RefinementInput& input) const;
+  void take_last_step(bool moving);
+  template <int N>
+  double shift_beams(const Eigen::Matrix<double, N, 1>& move);
   double step(const PoseWithCovariance& prior, bool moving, const RefinementOptions& options,
               Matrix3d& spread);
   double log_likelihood(const RefinementOptions& options) const;
