@@ -3,38 +3,48 @@
 #include <filesystem>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace adit {
 
-/// Keeps every n-th scan; n doubles whenever there are too many.
+/// Keeps every n-th scan of each laser; n doubles whenever there are too many.
 class LogFile::Sampler {
  public:
   Sampler(Log& log, std::size_t most_ranges) : log_(log), most_ranges_(most_ranges) {}
 
   void add(LogScan&& scan) {
-    if (scans_++ % stride_ != 0) return;
+    ++scans_;
+    if (next_of(seen_, scan.scan.scanner) % stride_ != 0) return;
     ranges_ += scan.scan.ranges.size();
     log_.scans.push_back(std::move(scan));
-    while (ranges_ > most_ranges_ && log_.scans.size() > 1) halve();
+    if (ranges_ > most_ranges_) halve();
   }
   std::size_t scans() const { return scans_; }
 
  private:
+  /// The number of the laser's next scan, from 0.
+  static std::size_t next_of(std::vector<std::size_t>& counts, int laser) {
+    const auto number = static_cast<std::size_t>(laser);
+    if (counts.size() <= number) counts.resize(number + 1, 0);
+    return counts[number]++;
+  }
+
+  /// Leaves every second scan of each laser, the first among them.
   void halve() {
-    std::size_t kept = 0;
+    std::vector<std::size_t> held;
     ranges_ = 0;
-    for (std::size_t i = 0; i < log_.scans.size(); i += 2) {
-      ranges_ += log_.scans[i].scan.ranges.size();
-      if (kept != i) log_.scans[kept] = std::move(log_.scans[i]);
-      ++kept;
-    }
-    log_.scans.resize(kept);
+    std::erase_if(log_.scans, [&](const LogScan& scan) {
+      if (next_of(held, scan.scan.scanner) % 2 != 0) return true;
+      ranges_ += scan.scan.ranges.size();
+      return false;
+    });
     stride_ *= 2;
   }
 
   Log& log_;
   std::size_t most_ranges_;
   std::size_t scans_ = 0;
+  std::vector<std::size_t> seen_;  // scans, of each laser
   std::size_t ranges_ = 0;
   std::size_t stride_ = 1;
 };

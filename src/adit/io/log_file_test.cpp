@@ -72,6 +72,25 @@ TEST(LogFile, HoldsNoMoreThanASampleSpreadOverTheLog) {
   EXPECT_GT(held.back().scan.stamp, 100.0 - 2.0 * step);
 }
 
+TEST(LogFile, HoldsScansOfEveryLaser) {
+  const test::ScratchFolder folder;
+  std::string text;
+  for (int i = 0; i < 100; ++i) {
+    const std::string end =
+        " 0 0 0 0 0 0 " + std::to_string(i) + " host " + std::to_string(i) + "\n";
+    text += "FLASER 4 1 2 3 4" + end + "RLASER 4 1 2 3 4" + end;
+  }
+  const auto log = LogFile::open(folder.write("log.clf", text), {}, 40);
+  ASSERT_TRUE(log);
+  std::vector<int> held(2, 0);
+  for (const LogScan& scan : log->sample().scans) {
+    ++held[static_cast<std::size_t>(scan.scan.scanner)];
+  }
+  EXPECT_GE(held[0], 2);
+  EXPECT_EQ(held[0], held[1]);
+  EXPECT_EQ(scans_of(*log).size(), 200U);
+}
+
 TEST(LogFile, SaysSoWhenTheLogChangedMeanwhile) {
   const test::ScratchFolder folder;
   const std::string path = folder.write("log.clf", log_text(100));

@@ -32,7 +32,8 @@ Matrix3d Refiner::white_information(const RefinementInput& input) const {
 }
 
 /// Carries the fit to where the last step leads, as if all were linear as far as that: a step of a
-/// few sigma is short against all that the map shows.
+/// few sigma is short against all that the map shows. On the move the shares of single walls leave
+/// out what the sweep's correction takes along.
 void Refiner::take_last_step(bool moving) {
   const Vector3d move = difference(fit_.pose, next_);
   const auto gain = [&](const Vector3d& score, const Matrix3d& information) {

@@ -56,6 +56,7 @@ void MapErrorEstimator::add(std::span<const BeamResidual> beams, std::span<const
     if (bends || along > kCell) {
       close_cell(covariance);
       if (bends || along > 2.0 * kCell) run_length_ = 0;
+      cell_.along_m = run_length_ > 0 ? run_[(run_length_ - 1) % kLags].along_m + along : 0.0;
       cell_begin_ = beam.hit;
       normal_ = beam.normal;
     }
@@ -99,10 +100,15 @@ void MapErrorEstimator::close_cell(const Matrix3d& covariance) {
   products_[0] += product(cell_) - 1.0 / cell_.weight;
   counts_[0] += 1.0;
   seen_ += 1.0;
-  const std::size_t lags = std::min(run_length_, kLags - 1);
-  for (std::size_t lag = 1; lag <= lags; ++lag) {
-    const Cell& other = run_[(run_length_ - lag) % kLags];
+  const std::size_t most = std::min(run_length_, kLags - 1);
+  for (std::size_t back = 1; back <= most; ++back) {
+    const Cell& other = run_[(run_length_ - back) % kLags];
+    // Where beams end far apart, cells do as well.
+    const double apart = cell_.along_m - other.along_m;
+    const auto lag = static_cast<std::size_t>(apart / kCell);
+    if (lag >= kLags) break;
     const double covariance_seen = product(other);
+    metres_[lag] += apart;
     products_[lag] += covariance_seen;
     counts_[lag] += 1.0;
     if (lag == 1) growth_.add(cell_.range * other.range, covariance_seen, 1.0);
@@ -117,6 +123,7 @@ void MapErrorEstimator::forget(double cells) {
   const double kept = std::exp(-cells * kCell / options_.memory_metres);
   for (double& product : products_) product *= kept;
   for (double& count : counts_) count *= kept;
+  for (double& metres : metres_) metres *= kept;
   growth_.forget(kept);
   within_ *= kept;
   within_count_ *= kept;
@@ -127,7 +134,7 @@ void MapErrorEstimator::forget(double cells) {
 void MapErrorEstimator::settle() {
   // Neighbouring cells hold the variance that walls share: extrapolated to no distance at all.
   const double total = std::max(0.0, covariance_at(0));
-  const double shared = std::clamp(2.0 * covariance_at(1) - covariance_at(2), 0.0, total);
+  const double shared = std::clamp(shared_covariance(), 0.0, total);
   const double prior = options_.prior_metres / kCell;
   const double within = std::max(0.0, within_ / (within_count_ + prior));
   const Growth growth = this->growth();
@@ -174,7 +181,28 @@ double MapErrorEstimator::Growth::growing_share() const {
   return std::min(kMost, growing / (growing + std::max(0.0, steady)));
 }
 
-/// Autocovariance of the walls' offsets at so many cells' distance (m²).
+/// The autocovariance extrapolated to no distance from the first two that were seen (m²).
+double MapErrorEstimator::shared_covariance() const {
+  std::size_t second = 2;
+  while (second + 1 < kLags && is_unseen(second)) ++second;
+  const double fall =
+      (covariance_at(1) - covariance_at(second)) / (distance_at(second) - distance_at(1));
+  return covariance_at(1) + fall * distance_at(1);
+}
+
+/// Whether hardly any cells lie so far apart, as where all beams end as far apart as two cells.
+bool MapErrorEstimator::is_unseen(std::size_t lag) const {
+  return counts_[lag] < 0.05 * counts_[1];
+}
+
+/// Mean distance of the cells whose products a lag holds (m).
+double MapErrorEstimator::distance_at(std::size_t lag) const {
+  const double prior = options_.prior_metres / kCell;
+  const double stated = kCell * static_cast<double>(lag);
+  return (metres_[lag] + prior * stated) / (counts_[lag] + prior);
+}
+
+/// Autocovariance of the walls' offsets at about so many cells' distance (m²).
 double MapErrorEstimator::covariance_at(std::size_t lag) const {
   const double prior = options_.prior_metres / kCell;
   const double metres = kCell * static_cast<double>(lag);
@@ -188,13 +216,16 @@ double MapErrorEstimator::covariance_at(std::size_t lag) const {
 double MapErrorEstimator::correlation_length(double shared) const {
   const double level = shared / std::exp(1.0);
   double last = shared;
+  double last_metres = 0.0;
   for (std::size_t lag = 1; lag < kLags; ++lag) {
+    if (is_unseen(lag)) continue;
     const double here = covariance_at(lag);
+    const double metres = distance_at(lag);
     if (here < level) {
-      const double fraction = (last - level) / (last - here);
-      return kCell * (static_cast<double>(lag) - 1.0 + fraction);
+      return last_metres + (metres - last_metres) * (last - level) / (last - here);
     }
     last = here;
+    last_metres = metres;
   }
   return kCell * static_cast<double>(kLags);
 }

@@ -113,6 +113,7 @@ class MapErrorEstimator {
     Vector3d gradient = Vector3d::Zero();
     double beams = 0.0;
     double range = 0.0;
+    double along_m = 0.0;  // where it begins, from the run's first
   };
   /// A line through products of neighbouring cells over the products of their ranges.
   struct Growth {
@@ -136,6 +137,9 @@ class MapErrorEstimator {
   void forget(double cells);
   void settle();
   double covariance_at(std::size_t lag) const;
+  double distance_at(std::size_t lag) const;
+  bool is_unseen(std::size_t lag) const;
+  double shared_covariance() const;
   double correlation_length(double shared) const;
   Growth growth() const;
 
@@ -149,6 +153,7 @@ class MapErrorEstimator {
   double seen_ = 0.0;  // cells
   std::array<double, kLags> products_{};
   std::array<double, kLags> counts_{};
+  std::array<double, kLags> metres_{};  // that those pairs lie apart
   Growth growth_;
   double within_ = 0.0;  // scatter within cells beyond the noise, weighted by beams
   double within_count_ = 0.0;

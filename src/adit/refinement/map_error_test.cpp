@@ -112,6 +112,23 @@ INSTANTIATE_TEST_SUITE_P(MapError, Truths,
                          ::testing::Values(MapError{0.15, 1.5, 0.03}, MapError{0.05, 1.0, 0.02},
                                            MapError{0.05, 2.5, 0.0}, MapError{0.3, 0.8, 0.1}));
 
+/// Every so many beams only: their ends lie farther apart than the cells are long.
+TEST(MapErrorEstimator, LearnsTheLengthWhereBeamsEndFarApart) {
+  const MapError truth{0.1, 1.5, 0.02};
+  for (const std::size_t every : {1U, 6U, 8U, 9U}) {
+    MapErrorEstimator estimator(kOptions);
+    Random random(12);
+    for (int i = 0; i < 300; ++i) {
+      const std::vector<BeamResidual> all = room(truth, random);
+      std::vector<BeamResidual> some;
+      for (std::size_t k = 0; k < all.size(); k += every) some.push_back(all[k]);
+      estimator.add(some, std::vector<double>(some.size(), 1.0), scanner(), Matrix3d::Zero());
+    }
+    EXPECT_NEAR(estimator.error().length_m, truth.length_m, 0.25) << every;
+    EXPECT_NEAR(estimator.error().offset_sigma_m, truth.offset_sigma_m, 0.015) << every;
+  }
+}
+
 TEST(MapErrorEstimator, LearnsHowMuchAPlanBends) {
   Random random(7);
   const MapError truth{0.03, 1.5, 0.0, 0.006};

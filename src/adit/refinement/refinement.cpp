@@ -30,8 +30,8 @@ constexpr std::size_t kCoarseBeams = 250;
 constexpr double kCoarseLength = 2.0;
 constexpr int kMostCoarse = 3;
 
-// A step of more sigmas than the options allow may be the last all the same, up to this length:
-// over so short a way the map looks the same but for a beam or two at an edge.
+// A step that is so many times longer than the options allow may be the last all the same: over so
+// short a way the map looks the same but for a beam or two at an edge.
 constexpr double kSmoothLength = 3.0;
 constexpr double kSmoothMetres = 0.02;
 constexpr double kSmoothTurn = radians(0.2);
@@ -39,12 +39,6 @@ constexpr double kSmoothTurn = radians(0.2);
 // After so many steps they are shortened; at the end one of so many sigmas is still accepted.
 constexpr int kFullSteps = 5;
 constexpr double kAcceptedLength = 2.0;
-
-// Of the walls' offsets, where what they say of the pose is weighed, for walls that are smoother
-// than the process that they are taken for. One whose correlation is Gaussian has 0.94 times that
-// process' amplitude at long waves, which place a pose across a drift, and up to 1.29 times at
-// waves of 3 to 5 times its length, which bends show; this lies between.
-constexpr double kSmoothWalls = 1.03;
 
 /// Adds what a run of beams on a wall says to what the wall has said before.
 template <int N>
@@ -153,7 +147,6 @@ void Refiner::weigh(const RefinementInput& input, const Matrix3d& spread,
     share += doubt / known;
     const double rounding = corner_sigma(input.map, beam, map_error, options) * beam.stretch;
     noise_[k] += rounding * rounding;
-    offset_[k] *= kSmoothWalls;
   }
   spread_share_ = share / std::max<double>(1.0, static_cast<double>(beams.size()));
   classifier_.classify(beams, spread_, options);
@@ -245,15 +238,21 @@ double Refiner::step(const PoseWithCovariance& prior, bool moving, const Refinem
   return too_long > 1.0 ? std::numeric_limits<double>::infinity() : length;
 }
 
+/// Whether the last step was short enough to be taken as linear.
+bool Refiner::is_smooth(double length, const RefinementOptions& options) const {
+  const Vector3d move = difference(fit_.pose, next_);
+  return length < kSmoothLength * options.step_tolerance && move.head<2>().norm() < kSmoothMetres &&
+         std::abs(move.z()) < kSmoothTurn;
+}
+
 /// The beams are judged ever more strictly, but no faster than the steps settle.
 bool Refiner::is_last(double length, const RefinementOptions& options) {
   const bool settled = spread_share_ < kNegligibleSpread || spread_share_ > 0.5 * last_share_;
   last_share_ = spread_share_;
-  if (fit_.iterations == options.max_iterations) return length < kAcceptedLength;
-  const Vector3d move = difference(fit_.pose, next_);
-  const bool smooth = length < kSmoothLength && move.head<2>().norm() < kSmoothMetres &&
-                      std::abs(move.z()) < kSmoothTurn;
-  return settled && (smooth || length < options.step_tolerance);
+  if (fit_.iterations == options.max_iterations) {
+    return length < kAcceptedLength * options.step_tolerance || is_smooth(length, options);
+  }
+  return settled && (length < options.step_tolerance || is_smooth(length, options));
 }
 
 }  // namespace adit

@@ -46,7 +46,7 @@ using WallShare = WallShareOf<3>;
 /// The log likelihood near `pose` is score^T d - d^T information d / 2 for a pose that lies d (x,
 /// y, theta; map frame) away. Directions that the scan does not show have no information.
 struct ScanFit {
-  Pose2 pose;  ///< of scan and prior, most likely
+  Pose2 pose;  ///< of scan and prior, most likely; where not converged, the last that was tried
   Matrix3d information = Matrix3d::Zero();
   Vector3d score = Vector3d::Zero();
   /// The information if the offsets of the walls were known: what the noise alone leaves open.
@@ -79,7 +79,8 @@ class Refiner {
                     std::span<const Pose2> poses, const Matrix3d& spread,
                     const RefinementOptions& options);
 
-  /// The beams of the last step and the probability of each to have met the map's wall.
+  /// The beams of the last step, their residuals carried to the fit's pose, and the probability of
+  /// each to have met the map's wall.
   std::span<const BeamResidual> beams() const { return residuals_.beams(); }
   std::span<const double> on_wall() const { return classifier_.on_wall(); }
   /// The walls that gainsay the last fit most, the worst first and no more than so many: those that
@@ -109,6 +110,7 @@ class Refiner {
               Matrix3d& spread);
   double log_likelihood(const RefinementOptions& options) const;
   void count_beams();
+  bool is_smooth(double length, const RefinementOptions& options) const;
   bool is_last(double length, const RefinementOptions& options);
 
   BeamResiduals residuals_;

@@ -104,9 +104,10 @@ Relations relate(const LoopScene& scene, const ChainDrift& chain, std::span<cons
 }
 
 /// Takes out the candidates that too few others support, until all that are left support each
-/// other: what is dropped supports nothing.
-void drop_unsupported(const Relations& relations, std::size_t candidates, int least,
-                      std::vector<char>& joined) {
+/// other: what is dropped supports nothing. Whether there were any.
+bool drop_unsupported(const Relations& relations, std::size_t candidates, int least,
+                      std::vector<char>& joined, std::vector<char>& dropped) {
+  bool any = false;
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t row = 0; row < candidates; ++row) {
@@ -116,9 +117,11 @@ void drop_unsupported(const Relations& relations, std::size_t candidates, int le
                                          [&](std::size_t other) { return joined[other] != 0; });
       if (support >= least) continue;
       joined[row] = 0;
-      changed = true;
+      dropped[row] = 1;
+      changed = any = true;
     }
   }
+  return any;
 }
 
 }  // namespace
@@ -135,20 +138,24 @@ std::vector<Closure> consistent_set(const LoopScene& scene, std::span<const Clos
   const auto is_candidate = [&](std::size_t row) { return row < candidates.size(); };
   const Relations relations = relate(scene, chain, closures, candidates.size(), rows, options);
   std::vector<char> joined(closures.size(), 0);
-  const auto has_joined = [&](std::size_t row) { return joined[row] != 0; };
-  for (const std::size_t row : rows) joined[row] = is_candidate(row) ? 0 : 1;
-  // Those with most support first; each joins unless it contradicts one that has.
+  std::vector<char> dropped(closures.size(), 0);
+  // Those with most support first; each joins unless it contradicts one that has. What is then
+  // dropped for want of support makes room for what it contradicted.
   std::vector<std::size_t> order = rows;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return relations.supporters[a].size() > relations.supporters[b].size();
   });
-  for (const std::size_t row : order) {
-    const auto& opponents = relations.opponents[row];
-    if (is_candidate(row)) {
-      joined[row] = std::none_of(opponents.begin(), opponents.end(), has_joined);
+  for (bool changed = true; changed;) {
+    for (const std::size_t row : rows) joined[row] = is_candidate(row) ? 0 : 1;
+    for (const std::size_t row : order) {
+      if (!is_candidate(row) || dropped[row] != 0) continue;
+      const auto& opponents = relations.opponents[row];
+      joined[row] = std::none_of(opponents.begin(), opponents.end(),
+                                 [&](std::size_t other) { return joined[other] != 0; });
     }
+    changed =
+        drop_unsupported(relations, candidates.size(), options.least_support, joined, dropped);
   }
-  drop_unsupported(relations, candidates.size(), options.least_support, joined);
   std::vector<Closure> accepted;
   for (const std::size_t row : rows) {
     if (is_candidate(row) && joined[row] != 0) accepted.push_back(closures[row]);

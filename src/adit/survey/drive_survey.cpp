@@ -172,7 +172,7 @@ Pose2 DriveSurvey::pose_of(const TrackedScan& scan) const {
 std::vector<Matrix3d> DriveSurvey::covariances() const {
   constexpr double kIndependent = 4.0;  // of the constraints of one keyframe
   std::vector<Matrix3d> information(poses_.size(), Matrix3d::Zero());
-  std::vector<int> counts(poses_.size(), 0);
+  std::vector<double> counts(poses_.size(), 0.0);
   for (const PoseConstraint& c : constraints_) {
     Matrix3d rotation = Matrix3d::Identity();
     const Vector2d axis = unit_vector(poses_[c.from].theta);
@@ -180,11 +180,11 @@ std::vector<Matrix3d> DriveSurvey::covariances() const {
     const double share = robust_share(c, poses_[c.from], poses_[c.to]);
     const Matrix3d of_it = share * rotation * c.information * rotation.transpose();
     information[c.to] += of_it;
-    ++counts[c.to];
+    counts[c.to] += share;
   }
   std::vector<Matrix3d> out(poses_.size(), Matrix3d::Zero());
   for (std::size_t i = 0; i < poses_.size(); ++i) {
-    if (counts[i] == 0) continue;  // the first of a drive that was never seen again
+    if (counts[i] <= 0.0) continue;  // the first of a drive that was never seen again
     const double shared = std::max(1.0, counts[i] / kIndependent);
     const Matrix3d least = 1e-6 * Matrix3d::Identity();  // what nothing holds stays invertible
     out[i] = (information[i] / shared + least).inverse();

@@ -84,11 +84,6 @@ class StationSurvey {
       report(0.7 + 0.3 * (round + 1) / options_.rounds);
     }
     report(1.0);
-    // Walls tell a heading better than the stations among themselves.
-    for (auto scan = survey_.scans.rbegin(); scan != survey_.scans.rend(); ++scan) {
-      survey_.stations[static_cast<std::size_t>(scan->station)].heading.heading_rad =
-          scan->map_from_vehicle.theta;
-    }
     return std::move(survey_);
   }
 
@@ -237,9 +232,24 @@ class StationSurvey {
       turns[station] += angle_between(before, found.map_from_vehicle.theta) /
                         static_cast<double>(survey_.stations[station].scans);
     }
+    return settle_stations(turns);
+  }
+
+  /// Gives the stations the headings of their first scans; the turns' root mean square over those
+  /// that are in the walls.
+  double settle_stations(std::span<const double> turns) {
+    for (auto scan = survey_.scans.rbegin(); scan != survey_.scans.rend(); ++scan) {
+      survey_.stations[static_cast<std::size_t>(scan->station)].heading.heading_rad =
+          scan->map_from_vehicle.theta;
+    }
     double squares = 0.0;
-    for (const double turn : turns) squares += turn * turn / static_cast<double>(turns.size());
-    return std::sqrt(squares);
+    double count = 0.0;
+    for (std::size_t s = 0; s < turns.size(); ++s) {
+      if (!survey_.stations[s].placed) continue;
+      squares += turns[s] * turns[s];
+      count += 1.0;
+    }
+    return std::sqrt(squares / count);
   }
 
   /// The scan's heading, or the one the other way or its station's where walls speak for that; none

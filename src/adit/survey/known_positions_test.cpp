@@ -186,6 +186,7 @@ TEST(SurveyKnownPositions, IsToldForwardsFromBackwardsByTheHeadingsThatAreGiven)
   options.rounds = 0;
   const auto count_reversed = [&] {
     const auto survey = survey_known_positions(stations.scans, sick().model, options);
+    EXPECT_TRUE(survey.has_value());
     std::size_t count = 0;
     for (std::size_t i = 0; survey && i < stations.headings.size(); ++i) {
       const double theta = survey->scans[i].map_from_vehicle.theta;

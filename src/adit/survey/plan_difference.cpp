@@ -92,7 +92,7 @@ class Comparison {
     }
     evidence_.add(hits, 0);
     evidence_.finish_adding();
-    Visits visit(visits, visit_m_);
+    Visits visit(visits.size() == scans.size() ? visits : std::span<const int>{}, visit_m_);
     const auto done = scans.visit([&](const PosedScan& scan) {
       evidence_.look_through(scan, visit.next(scan.map_from_vehicle));
     });

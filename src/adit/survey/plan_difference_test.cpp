@@ -158,6 +158,18 @@ TEST(CompareWithPlan, GivesEachOfTwoMovedWallsItsPartOfTheWallThatReplacesThem) 
   EXPECT_TRUE(difference(apply_changes(plan, d.items), corridor(false)).items.empty());
 }
 
+TEST(CompareWithPlan, CombsNoWallThatReplacesTwoOverEachOther) {
+  auto plan = corridor(false);
+  plan[2] = {{20.0, 3.5}, {0.0, 3.5}};  // drawn twice, and cut back since
+  plan.push_back({{19.5, 3.4}, {0.5, 3.4}});
+  const auto d = difference(plan, corridor(false));
+  ASSERT_EQ(count(d, PlanChange::moved), 2);
+  std::size_t pieces = 0;
+  for (const PlanChangeItem& item : d.items) pieces += item.added.size();
+  EXPECT_LE(pieces, 4U);
+  EXPECT_TRUE(difference(apply_changes(plan, d.items), corridor(false)).items.empty());
+}
+
 TEST(CompareWithPlan, LeavesWallsThatRunToTheHorizonUnseen) {
   constexpr double kFar = 1e8;  // m
   auto plan = corridor(false);

@@ -37,7 +37,8 @@ class ReplacedWalls {
     SegmentPart stretch;
   };
   /// Neighbouring places of one change together.
-  static std::vector<Claim> joined(std::vector<Claim> claims);
+  static std::vector<Claim> joined(std::vector<Claim> claims, double step_m);
+  static std::vector<Claim> apart(std::vector<Claim> claims);
 
   std::span<const Segment> surveyed_;
   std::vector<std::vector<Claim>> claims_;  // of each wall

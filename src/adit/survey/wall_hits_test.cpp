@@ -74,7 +74,14 @@ TEST(PlaceHitFinder, FindsNeighboursInTheOtherScansOfThePlace) {
 TEST(PlaceHitFinder, MakesNoWallOfAPost) {
   const std::vector<Segment> post{{{4.0, -0.01}, {4.0, 0.01}}};
   std::vector<PosedScan> scans;
-  for (int i = 0; i < 8; ++i) scans.push_back(scan_of(post, {0.0, 0.0, 0.0}));
+  for (int i = 0; i < 8; ++i) {
+    Random random(static_cast<std::uint64_t>(i));
+    const Pose2 pose{0.0, 0.0, 0.0};
+    scans.push_back({simulate_scan(RayCaster(post), pose, sick(), random), pose, Matrix3d::Zero()});
+  }
+  WallHitFinder alone(sick().model, {});
+  alone.find(scans.front());
+  EXPECT_FALSE(alone.lone().empty());
   PlaceHitFinder finder(sick().model, {});
   std::size_t count = 0;
   for (const std::vector<WallHit>& hits : finder.find(scans)) count += hits.size();

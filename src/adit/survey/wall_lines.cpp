@@ -135,11 +135,13 @@ struct FittedPieces {
 /// Distance from a piece, or from the one before or after: about a corner a point may lie by
 /// either.
 double distance_about(const FittedPieces& fitted, std::size_t piece, const Vector2d& point) {
-  const std::size_t last = fitted.begins.size() - 1;
+  const std::size_t pieces = fitted.begins.size();
   double least = std::numeric_limits<double>::max();
-  const std::size_t from = piece > 0 ? piece - 1 : 0;
-  for (std::size_t i = from; i <= std::min(piece + 1, last); ++i) {
-    least = std::min(least, distance({fitted.vertices[i], fitted.vertices[i + 1]}, point));
+  for (const std::size_t i : {piece + pieces - 1, piece, piece + 1}) {
+    const std::size_t k = i % pieces;
+    const bool is_beside = fitted.closed || (k + 1 >= piece && k <= piece + 1);
+    if (!is_beside) continue;
+    least = std::min(least, distance({fitted.vertices[k], fitted.vertices[k + 1]}, point));
   }
   return least;
 }

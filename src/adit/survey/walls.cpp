@@ -54,8 +54,10 @@ std::vector<Segment> WallMap::segments() const {
 }
 
 Result<WallMap> survey_walls(const PosedScans& scans, const ScannerModel& scanner,
-                             const WallOptions& given, std::span<const int> visits,
+                             const WallOptions& given, std::span<const int> given_visits,
                              const SurveyProgress& progress) {
+  const std::span<const int> visits =
+      given_visits.size() == scans.size() ? given_visits : std::span<const int>{};
   WallOptions options = given;
   options.cell_m = cell_size(scanner, given);
   std::size_t done = 0;

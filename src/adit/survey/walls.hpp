@@ -57,9 +57,10 @@ using SurveyProgress = std::function<void(double)>;
 /// What moves is dropped, layers of one wall become one, both sides of a thin wall stay; pieces
 /// follow what was seen to within the tolerance and meet at vertices; gaps stay open. The scans are
 /// gone through twice. Time is linear in the beams, memory in the area of walls and of the space
-/// between them. The same scans give the same walls. Scans that belong to one visit can be told by
-/// `visits`, one number for every scan, ascending; without it a visit is a stretch of way. An Error
-/// where the scans cannot be read.
+/// between them. The same scans give the same walls. Scans that were taken from one place can be
+/// told by `visits`, one number for every scan, ascending: each place is one visit, and its scans
+/// lend each other neighbours, up to 32 of them. Without it, or of another length, a visit is a
+/// stretch of way. An Error where the scans cannot be read.
 Result<WallMap> survey_walls(const PosedScans& scans, const ScannerModel& scanner,
                              const WallOptions& options = {}, std::span<const int> visits = {},
                              const SurveyProgress& progress = {});
