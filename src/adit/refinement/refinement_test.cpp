@@ -11,103 +11,12 @@
 #include "adit/information/beam.hpp"
 #include "adit/refinement/pose_search.hpp"
 #include "adit/simulation/random.hpp"
-#include "support/casting.hpp"
+#include "support/fitting_scene.hpp"
 
 namespace adit {
 namespace {
 
-using testing::cast_at;
-using testing::kInfinity;
-using testing::map_of;
-
-void add_outline(std::vector<Segment>& walls, const std::vector<Vector2d>& corners) {
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    walls.push_back({corners[i], corners[(i + 1) % corners.size()]});
-  }
-}
-
-/// The paper's mockup: corridors of 6 m around a pillar, columns on the left wall, one leg aslant.
-std::vector<Segment> mockup_walls() {
-  std::vector<Vector2d> hall{{0.5, 30.0}};
-  for (const double y : {22.5, 16.5, 10.5, 4.5}) {
-    for (const Vector2d& corner :
-         {Vector2d(0.5, y + 0.4), Vector2d(0.9, y + 0.4), Vector2d(0.9, y), Vector2d(0.5, y)}) {
-      hall.push_back(corner);
-    }
-  }
-  for (const Vector2d& corner :
-       {Vector2d(0.5, 0.3), Vector2d(18.0, 0.3), Vector2d(20.0, 2.3), Vector2d(20.0, 23.7),
-        Vector2d(6.5, 18.73), Vector2d(6.5, 24.0), Vector2d(7.0, 24.0), Vector2d(7.0, 30.0)}) {
-    hall.push_back(corner);
-  }
-  std::vector<Segment> walls;
-  add_outline(walls, hall);
-  add_outline(walls, {{6.5, 6.3}, {6.5, 12.33}, {14.0, 15.1}, {14.0, 6.3}});
-  return walls;
-}
-
-bool is_open(const std::vector<Segment>& walls, const Vector2d& place) {
-  int crossings = 0;
-  for (const Segment& wall : walls) {
-    if (distance(wall, place) < 1.0) return false;
-    crossings += cast_at(wall, place, unit_vector(1.234)) < kInfinity ? 1 : 0;
-  }
-  return crossings % 2 == 1;
-}
-
-Pose2 random_pose(const std::vector<Segment>& walls, Random& random) {
-  for (;;) {
-    const double y = random.uniform(0.3, 30.0);
-    const double x = random.uniform(0.5, 20.0);
-    if (is_open(walls, {x, y})) return {x, y, random.uniform(-kPi, kPi)};
-  }
-}
-
-/// What a scanner meets, and what goes wrong.
-struct Scene {
-  std::vector<Segment> solid = mockup_walls();
-  double range_sigma_m = 0.02;
-  double dust_ratio = 0.0;
-  double dropout_ratio = 0.0;
-};
-
-ScannerModel scanner(double range_sigma_m = 0.02) {
-  ScannerModel model;
-  model.range_sigma_m = range_sigma_m;
-  model.quantisation_m = 0.0;
-  model.max_range_m = 50.0;
-  return model;
-}
-
-LaserScan scan_from(const Pose2& vehicle, const Scene& scene, Random& random) {
-  constexpr int kBeams = 360;
-  LaserScan scan;
-  scan.first_bearing = -kPi;
-  scan.bearing_step = kTwoPi / kBeams;
-  scan.max_range = 50.0;
-  scan.vehicle_from_laser = {0.5, -0.2, radians(20.0)};
-  const Pose2 laser = vehicle * scan.vehicle_from_laser;
-  for (int i = 0; i < kBeams; ++i) {
-    const Vector2d direction = unit_vector(laser.theta + scan.first_bearing + i * kTwoPi / kBeams);
-    double range = kInfinity;
-    for (const Segment& wall : scene.solid) {
-      range = std::min(range, cast_at(wall, laser.translation(), direction));
-    }
-    if (random.chance(scene.dust_ratio)) range = std::min(range, random.uniform(0.1, 5.0));
-    range += scene.range_sigma_m * random.normal();
-    scan.ranges.push_back(random.chance(scene.dropout_ratio) ? 50.0 : std::min(range, 50.0));
-  }
-  return scan;
-}
-
-/// What is known before: so wrong, one sigma.
-PoseWithCovariance around(const Pose2& pose, double metres, double radians) {
-  return {pose, Vector3d(metres, metres, radians).cwiseAbs2().asDiagonal()};
-}
-
-Pose2 moved_by(const Pose2& pose, double x, double y, double theta) {
-  return Pose2::from_vector(pose.vector() + Vector3d(x, y, theta));
-}
+using namespace testing;  // NOLINT(google-build-using-namespace): the scene
 
 /// The pose that the scan alone makes most likely.
 Pose2 best(const ScanFit& fit) {
@@ -314,55 +223,6 @@ TEST(Refiner, TheWallsAddUpToTheFit) {
   EXPECT_NEAR(sum.chi_square, fit.chi_square, 1e-9 * fit.chi_square);
   EXPECT_EQ(fit.information, fit.information.transpose());
   EXPECT_EQ(fit.white_information, fit.white_information.transpose());
-}
-
-/// A fit whose last step is taken as linear agrees with one that looks at the map again.
-TEST(Refiner, TheLastStepLeadsToWhereTheMapIsLookedAtAgain) {
-  Random random(21);
-  double longest = 0.0;
-  std::vector<double> unlikelier;
-  for (int i = 0; i < 20; ++i) {
-    const Scene scene;
-    const Pose2 truth = random_pose(scene.solid, random);
-    const LaserScan scan = scan_from(truth, scene, random);
-    const LineMap map = map_of(scene.solid);
-    const ScannerModel model = scanner();
-    const MapError exact{0.001, 1.0, 0.001};
-    const RefinementInput input{map, scan, model, exact, std::nullopt};
-    const PoseWithCovariance prior = around(moved_by(truth, 0.03, -0.02, 0.01), 0.1, 0.03);
-    const RefinementOptions once;
-    RefinementOptions again;
-    again.step_tolerance = 0.01;
-    Refiner quick;
-    Refiner thorough;
-    const ScanFit& a = quick.refine(input, prior, prior, once);
-    const ScanFit& b = thorough.refine(input, prior, prior, again);
-    ASSERT_TRUE(a.converged && b.converged);
-    longest = std::max(longest, static_cast<double>(b.iterations - a.iterations));
-    const Vector3d off = difference(b.pose, a.pose);
-    EXPECT_LT(off.dot(b.information * off), 0.25);  // half a sigma
-    // But for a beam or two at an edge.
-    EXPECT_NEAR(a.log_likelihood, b.log_likelihood, 8.0);
-    EXPECT_NEAR(a.chi_square, b.chi_square, 6.0);
-    unlikelier.push_back(b.log_likelihood - a.log_likelihood);
-    // What is left of the score is the prior's pull.
-    const Vector3d pull = prior.covariance.inverse() * difference(a.pose, prior.pose);
-    EXPECT_LT((a.score + pull).norm(), 1e-6 * (1.0 + pull.norm()));
-    BeamResiduals fresh;
-    fresh.set_scan(scan, model);
-    fresh.compute(map, a.pose, SweepPath{}, SweepCorrection{}, once);
-    int compared = 0;
-    for (const BeamResidual& beam : quick.beams()) {
-      for (const BeamResidual& other : std::as_const(fresh).beams()) {
-        if (other.beam != beam.beam || other.wall != beam.wall) continue;
-        compared += std::abs(other.residual - beam.residual) < 0.002 ? 1 : 0;
-      }
-    }
-    EXPECT_GT(compared, static_cast<int>(quick.beams().size()) - 6);
-  }
-  EXPECT_GT(longest, 0.5);  // some looked once less
-  std::sort(unlikelier.begin(), unlikelier.end());
-  EXPECT_NEAR(unlikelier[unlikelier.size() / 2], 0.0, 1.0);
 }
 
 TEST(Refiner, EachBeamCountsByItsNoiseAndTheProbabilityOfItsWall) {
