@@ -38,6 +38,10 @@ ByPlace other_shares(const RefinementOptions& options) {
   return {options.long_ratio, 1.0 - options.long_ratio};
 }
 
+/// How long the way is on which that may be (m). A beam that went farther behind than the wall is
+/// away makes it longer: a pose close by a wall must not make all that is behind it likely.
+double stretch_of(const BeamResidual& beam) { return std::max(beam.range, 0.5 * beam.measured); }
+
 }  // namespace
 
 double log_other(std::span<const BeamResidual> beams, const RefinementOptions& options) {
@@ -45,7 +49,7 @@ double log_other(std::span<const BeamResidual> beams, const RefinementOptions& o
   const ByPlace shares = other_shares(options);
   for (const BeamResidual& beam : beams) {
     if (!beam.has_return) continue;
-    product.multiply(of(beam, shares) / beam.range * beam.measured);
+    product.multiply(of(beam, shares) / stretch_of(beam) * beam.measured);
   }
   return product.log();
 }
@@ -76,7 +80,7 @@ void BeamClassifier::find_ratios(std::span<const BeamResidual> beams,
   for (Eigen::Index k = 0; k < size; ++k) {
     const BeamResidual& beam = beams[static_cast<std::size_t>(k)];
     ratio_[k] = -0.5 * beam.residual * beam.residual;
-    peak_[k] = beam.range * of(beam, peaks_per_m);
+    peak_[k] = stretch_of(beam) * of(beam, peaks_per_m);
   }
   // The longest part of the work, over whole arrays.
   const Eigen::Map<const Eigen::ArrayXd> variance(variances.data(), size);

@@ -41,13 +41,15 @@ struct Classified {
 };
 
 /// Density of a return if the beam met the wall, against something else: that stands anywhere up to
-/// the wall's range before it or, less often, as far behind.
+/// the wall's range before it or, less often, as far behind, and farther where the beam went
+/// farther.
 double ratio_of(const BeamResidual& at, double variance, const RefinementOptions& options) {
   if (!at.has_return) return 1.0;
   const double wall =
       std::exp(-0.5 * at.residual * at.residual / variance) / std::sqrt(kTwoPi * variance);
   const double share = at.residual < 0.0 ? 1.0 - options.long_ratio : options.long_ratio;
-  return wall / (share / at.range);
+  const double way = std::max(at.range, at.has_return ? 0.5 * (at.range + at.residual) : 0.0);
+  return wall / (share / way);
 }
 
 struct Exact {
@@ -209,6 +211,17 @@ TEST(BeamClassifier, SomethingElseIsLikelierBeforeNearWalls) {
   EXPECT_NEAR(other(8.0) - other(40.0), 10.0 * std::log(5.0), 1e-9);
   EXPECT_NEAR(other(8.0), 10.0 * std::log((1.0 - options.long_ratio) * 0.5), 1e-9);
   EXPECT_EQ(log_other(std::vector<BeamResidual>(3, beam(0.0, 8.0, false)), options), 0.0);
+}
+
+/// All that is seen from there lies far behind the wall.
+TEST(LogOther, APoseCloseByAWallMakesNothingBehindItLikely) {
+  const RefinementOptions options;
+  const auto other = [&](double range) {
+    return log_other(std::vector<BeamResidual>(10, beam(9.0 - range, range)), options);
+  };
+  EXPECT_NEAR(other(0.001), other(0.1), 1e-9);
+  EXPECT_LT(other(0.001), 0.0);
+  EXPECT_GT(other(0.001), other(8.0) - 1e-9);
 }
 
 TEST(BeamClassifier, AScanWithoutBeamsIsNothing) {
