@@ -80,7 +80,7 @@ Result<void> LogFile::visit_scans(const std::function<void(const LogScan&)>& tak
   MaxRangeSettler settler(reader_);
   std::size_t scans = 0;
   std::size_t odometry = 0;
-  const auto read = stream_log(path_, reader, [&](LogMessage&& message) {
+  auto read = stream_log(path_, reader, [&](LogMessage&& message) {
     if (std::get_if<LogOdometry>(&message) != nullptr) ++odometry;
     auto* scan = std::get_if<LogScan>(&message);
     if (scan == nullptr || ++scans > scans_) return;

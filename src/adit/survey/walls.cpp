@@ -54,12 +54,11 @@ std::vector<Segment> WallMap::segments() const {
 }
 
 Result<WallMap> survey_walls(const PosedScans& scans, const ScannerModel& scanner,
-                             const WallOptions& given, std::span<const int> given_visits,
+                             const WallOptions& options, std::span<const int> visits,
                              const SurveyProgress& progress) {
-  const std::span<const int> visits =
-      given_visits.size() == scans.size() ? given_visits : std::span<const int>{};
-  WallOptions options = given;
-  options.cell_m = cell_size(scanner, given);
+  WallOptions here = options;
+  here.cell_m = cell_size(scanner, options);
+  if (visits.size() != scans.size()) visits = {};
   std::size_t done = 0;
   const auto report = [&](double from, double share) {
     if (progress && done % kReportEvery == 0) {
@@ -67,9 +66,9 @@ Result<WallMap> survey_walls(const PosedScans& scans, const ScannerModel& scanne
     }
     ++done;
   };
-  BeamEvidence evidence(scanner, options);
-  HitAdder hits(scanner, options, evidence);
-  Visits adding(visits, options.visit_m);
+  BeamEvidence evidence(scanner, here);
+  HitAdder hits(scanner, here, evidence);
+  Visits adding(visits, here.visit_m);
   const bool by_place = !visits.empty();
   const auto added = scans.visit([&](const PosedScan& scan) {
     report(0.0, kShareOfAdding);
@@ -80,7 +79,7 @@ Result<WallMap> survey_walls(const PosedScans& scans, const ScannerModel& scanne
   hits.finish();
   evidence.finish_adding();
   done = 0;
-  Visits looking(visits, options.visit_m);
+  Visits looking(visits, here.visit_m);
   const auto looked = scans.visit([&](const PosedScan& scan) {
     report(kShareOfAdding, kShareOfLooking);
     evidence.look_through(scan, looking.next(scan.map_from_vehicle));
@@ -88,12 +87,12 @@ Result<WallMap> survey_walls(const PosedScans& scans, const ScannerModel& scanne
   if (!looked) return tl::unexpected(looked.error());
   evidence.finish_looking();
 
-  const std::vector<WallNode> nodes = find_wall_nodes(evidence, scanner, options);
+  const std::vector<WallNode> nodes = find_wall_nodes(evidence, scanner, here);
   WallMap map;
-  for (const WallChain& chain : link_wall_nodes(nodes, evidence, options)) {
-    if (auto line = make_wall_line(nodes, chain, options)) map.lines.push_back(std::move(*line));
+  for (const WallChain& chain : link_wall_nodes(nodes, evidence, here)) {
+    if (auto line = make_wall_line(nodes, chain, here)) map.lines.push_back(std::move(*line));
   }
-  join_ends(map.lines, evidence, options);
+  join_ends(map.lines, evidence, here);
   if (progress) progress(1.0);
   return map;
 }

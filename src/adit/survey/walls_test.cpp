@@ -174,7 +174,7 @@ TEST(SurveyWalls, TakesWhatIsFarForWallsWhenSeveralVisitsOrScansMetIt) {
 }
 
 TEST(SurveyWalls, SaysNothingWithoutScans) {
-  EXPECT_TRUE(survey_walls({}, ScannerModel{}).lines.empty());
+  EXPECT_TRUE(survey_walls(std::vector<PosedScan>{}, ScannerModel{}).lines.empty());
 }
 
 TEST(SurveyWalls, GivesTheSameWallsTwice) {
