@@ -33,8 +33,7 @@ struct RefinementOptions {
     field("max_iterations", self.max_iterations, "most Gauss-Newton steps");
     field("step_tolerance", self.step_tolerance,
           "a step smaller than this part of its own sigma is the last; one up to three times as "
-          "long, "
-          "below 2 cm and 0.2 degrees, too: it is taken as linear");
+          "long, below 2 cm and 0.2 degrees, too: it is taken as linear");
     field("max_step_m", self.max_step_m, "a longer step is shortened to this (m)");
     field("max_step_rad", self.max_step_rad, "a step that turns more is shortened to this (rad)");
     field("station_spacing_m", self.station_spacing_m,
