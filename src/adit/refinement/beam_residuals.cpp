@@ -71,7 +71,6 @@ void BeamResiduals::set_scan(const LaserScan& scan, const ScannerModel& scanner,
   reach_ = std::min(max_range_, longest_return() + kBeyondReturns);
   noise_reach_ = 2.0 * scanner.beam_sigma_m();
   timing_ = sweep_timing(scanner, count);
-  ranges_.resize(count);
   walls_.resize(count);
   if (beams_.size() < count) beams_.resize(count);  // grows only
   near_.reserve(kMostNear);
@@ -207,21 +206,19 @@ bool BeamResiduals::find_wall_beyond(const LineMap& map, const Vector2d& end,
 
 /// Of every so many beams of the station, as many as there is room for.
 void BeamResiduals::look_up_walls(const Station& station, std::size_t stride,
-                                  std::span<double> ranges, std::span<int> walls) const {
+                                  std::span<int> walls) const {
   const double turn_per_beam = station.turn_rate * timing_.step_s;
   const auto bearing = [&](std::size_t i) {
     return station.laser.theta + scan_->bearing(i) +
            station.turn_rate * (timing_.at(i) - station.tau);
   };
   if (evenly_spaced_) {
-    visibility_.ranges(bearing(station.begin),
-                       static_cast<double>(stride) * (bearing_step_ + turn_per_beam), ranges,
-                       walls);
+    visibility_.walls_along(bearing(station.begin),
+                            static_cast<double>(stride) * (bearing_step_ + turn_per_beam), walls);
     return;
   }
-  for (std::size_t k = 0; k < ranges.size(); ++k) {
-    visibility_.ranges(bearing(station.begin + k * stride), 1.0, ranges.subspan(k, 1),
-                       walls.subspan(k, 1));
+  for (std::size_t k = 0; k < walls.size(); ++k) {
+    visibility_.walls_along(bearing(station.begin + k * stride), 1.0, walls.subspan(k, 1));
   }
 }
 
@@ -233,14 +230,13 @@ void BeamResiduals::look_from(const LineMap& map, const Station& station, const 
   const RigidTransform map_from_laser(station.laser);
   const Vector2d centre = station.laser.translation();
   const bool moves = timing_.step_s != 0.0;
-  const std::span<double> ranges(ranges_.data(), count);
   const std::span<int> walls(walls_.data(), count);
   if (!(&map == swept_map_ && (centre - swept_from_).norm() <= kSamePlace)) {
     visibility_.sweep(map, centre, reach_);
     swept_map_ = &map;
     swept_from_ = centre;
   }
-  look_up_walls(station, stride, ranges, walls);
+  look_up_walls(station, stride, walls);
   const bool looks_beyond = stride == 1;  // the few beams that lead the way do without
   WallLine wall;
   for (std::size_t k = 0; k < count; ++k) {

@@ -89,8 +89,7 @@ class BeamResiduals {
   };
   void look_from(const LineMap& map, const Station& station, const Vector2d& vehicle,
                  const RefinementOptions& options, std::size_t stride, const WallDoubt& doubt);
-  void look_up_walls(const Station& station, std::size_t stride, std::span<double> ranges,
-                     std::span<int> walls) const;
+  void look_up_walls(const Station& station, std::size_t stride, std::span<int> walls) const;
   Meeting meet(const WallLine& in_the_way, double measured, double range, const Vector2d& origin,
                const Vector2d& direction, const Vector2d& lever, const WallDoubt& doubt);
 
@@ -121,7 +120,6 @@ class BeamResiduals {
   std::vector<int> near_;  // walls about the end of a beam that went through one
   WallLine beyond_;
   std::vector<Meeting> met_;  // walls that a beam may have met
-  std::vector<double> ranges_;
   std::vector<int> walls_;
   std::vector<BeamResidual> beams_;  // the first `size_` of them
   std::size_t size_ = 0;

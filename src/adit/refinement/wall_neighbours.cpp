@@ -28,11 +28,11 @@ void WallNeighbours::reset(const LineMap& map, double reach) {
   if (map_ == &map && reach_ == reach) return;
   map_ = &map;
   reach_ = reach;
-  slots_.assign(kSlots, Slot{});
+  slots_.assign(std::clamp<std::size_t>(map.walls().size(), 1, kSlots), Slot{});
 }
 
 std::span<const WallLine> WallNeighbours::of(int wall) {
-  Slot& slot = slots_[static_cast<std::size_t>(wall) % kSlots];
+  Slot& slot = slots_[static_cast<std::size_t>(wall) % slots_.size()];
   if (slot.wall != wall) {
     slot.wall = wall;
     fill(slot);

@@ -34,7 +34,7 @@ class WallNeighbours {
 
  private:
   static constexpr std::size_t kMost = 16;    // neighbours of one wall
-  static constexpr std::size_t kSlots = 512;  // walls kept
+  static constexpr std::size_t kSlots = 512;  // walls kept, at most
 
   struct Slot {
     int wall = -1;

@@ -42,9 +42,31 @@ class BeamFan {
   Vector2d base_ = Vector2d::UnitX();
 };
 
-double bearing_of(const Vector2d& v) { return std::atan2(v.y(), v.x()); }
-
 }  // namespace
+
+/// Deals the beams out to the intervals that they meet: `take(interval, from, stop)`. A beam at the
+/// very end of two is dealt to both.
+template <class Take>
+void Visibility::deal_out(double first_bearing, double bearing_step, std::size_t beams,
+                          Take&& take) const {
+  const double last_beam = static_cast<double>(beams - 1);
+  const double last_bearing = first_bearing + last_beam * bearing_step;
+  const auto [lowest, highest] = std::minmax(first_bearing, last_bearing);
+  const double slack = kSlack * std::abs(bearing_step);
+  for (std::size_t k = 0; k < turns_.size(); ++k) {
+    const auto [begin, end] = turns_[k];
+    const double last_turn = std::floor((highest + slack - begin) / kTwoPi);
+    for (double turn = std::ceil((lowest - slack - end) / kTwoPi); turn <= last_turn; turn += 1.0) {
+      const double at_begin = (begin + turn * kTwoPi - first_bearing) / bearing_step;
+      const double at_end = (end + turn * kTwoPi - first_bearing) / bearing_step;
+      const auto [from, to] = std::minmax(at_begin, at_end);
+      const double from_beam = std::max(0.0, std::ceil(from - kSlack));
+      const double end_beam = std::min(last_beam, std::floor(to + kSlack)) + 1.0;
+      if (!(from_beam < end_beam)) continue;
+      take(k, static_cast<std::size_t>(from_beam), static_cast<std::size_t>(end_beam));
+    }
+  }
+}
 
 void Visibility::ranges(double first_bearing, double bearing_step, std::span<double> out,
                         std::span<int> walls) const {
@@ -58,31 +80,30 @@ void Visibility::ranges(double first_bearing, double bearing_step, std::span<dou
     return;
   }
   BeamFan fan(first_bearing, bearing_step);
-  const double last_beam = static_cast<double>(out.size() - 1);
-  const double last_bearing = first_bearing + last_beam * bearing_step;
-  const auto [lowest, highest] = std::minmax(first_bearing, last_bearing);
-  const double slack = kSlack * std::abs(bearing_step);
-  for (std::size_t k = 0; k < intervals_.size(); ++k) {
-    const double begin = bearing_of(intervals_[k].begin);
-    double end = bearing_of(intervals_[k].end);
-    if (end < begin) end += kTwoPi;  // it spans the bearing pi
-    const double last_turn = std::floor((highest + slack - begin) / kTwoPi);
-    for (double turn = std::ceil((lowest - slack - end) / kTwoPi); turn <= last_turn; turn += 1.0) {
-      const double at_begin = (begin + turn * kTwoPi - first_bearing) / bearing_step;
-      const double at_end = (end + turn * kTwoPi - first_bearing) / bearing_step;
-      const auto [from, to] = std::minmax(at_begin, at_end);
-      const double from_beam = std::max(0.0, std::ceil(from - kSlack));
-      const double end_beam = std::min(last_beam, std::floor(to + kSlack)) + 1.0;
-      if (!(from_beam < end_beam)) continue;
-      const auto stop = static_cast<std::size_t>(end_beam);
-      for (auto i = static_cast<std::size_t>(from_beam); i < stop; ++i) {
-        const double range = 1.0 / cross(fan.direction(i), inverse_ranges_[k]);
-        if (!(range < out[i])) continue;
-        out[i] = range;
-        if (!walls.empty()) walls[i] = intervals_[k].wall;
-      }
-    }
+  deal_out(first_bearing, bearing_step, out.size(),
+           [&](std::size_t k, std::size_t from, std::size_t stop) {
+             for (std::size_t i = from; i < stop; ++i) {
+               const double range = 1.0 / cross(fan.direction(i), inverse_ranges_[k]);
+               if (!(range < out[i])) continue;
+               out[i] = range;
+               if (!walls.empty()) walls[i] = intervals_[k].wall;
+             }
+           });
+}
+
+void Visibility::walls_along(double first_bearing, double bearing_step,
+                             std::span<int> walls) const {
+  std::fill(walls.begin(), walls.end(), -1);
+  if (walls.empty() || !std::isfinite(first_bearing) || !std::isfinite(bearing_step)) return;
+  if (bearing_step == 0.0) {  // all beams are the first
+    walls_along(first_bearing, 1.0, walls.first(1));
+    std::fill(walls.begin(), walls.end(), walls.front());
+    return;
   }
+  deal_out(first_bearing, bearing_step, walls.size(),
+           [&](std::size_t k, std::size_t from, std::size_t stop) {
+             for (std::size_t i = from; i < stop; ++i) walls[i] = intervals_[k].wall;
+           });
 }
 
 }  // namespace adit

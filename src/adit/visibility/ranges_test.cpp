@@ -49,6 +49,36 @@ TEST_P(VisibilityRanges, LikeCastingBeamByBeam) {
   }
 }
 
+/// Whether the wall ends where the bearing passes, to the last bits.
+bool ends_at(const Segment& segment, const Vector2d& observer, double bearing) {
+  const Vector2d along = unit_vector(bearing);
+  return std::abs(cross(along, segment.a - observer)) < 1e-9 ||
+         std::abs(cross(along, segment.b - observer)) < 1e-9;
+}
+
+TEST_P(VisibilityRanges, WallsAreThoseOfTheRanges) {
+  const Fan fan = GetParam();
+  std::mt19937_64 random(6);
+  Visibility visibility;
+  std::vector<double> ranges(fan.beams);
+  std::vector<int> walls(fan.beams);
+  std::vector<int> alone(fan.beams);
+  const Vector2d observer(4.1, 3.7);
+  for (int world = 0; world < 20; ++world) {
+    const auto map = map_of(grid_segments(random, 12, 8));
+    visibility.sweep(map, observer, 6.0);
+    visibility.ranges(fan.first, fan.step, ranges, walls);
+    visibility.walls_along(fan.first, fan.step, alone);
+    for (std::size_t i = 0; i < fan.beams; ++i) {
+      if (alone[i] == walls[i]) continue;
+      ASSERT_GE(alone[i], 0);
+      const Wall& wall = map.walls()[static_cast<std::size_t>(alone[i])];
+      const double bearing = fan.first + static_cast<double>(i) * fan.step;
+      EXPECT_TRUE(ends_at(wall.segment, observer, bearing)) << "beam " << i;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Fans, VisibilityRanges,
                          ::testing::Values(Fan{-kPi, kTwoPi / 1000, 1000},
                                            Fan{0.0, kTwoPi / 1000, 1000},

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "adit/geometry/angle.hpp"
 #include "adit/visibility/bearing_key.hpp"
 
 namespace adit {
@@ -178,6 +179,7 @@ void Visibility::stage_ring(const LineMap& map, const Vector2d& observer, Ring r
 void Visibility::collect_intervals() {
   intervals_.clear();
   inverse_ranges_.clear();
+  turns_.clear();
   std::span<const Envelope::Piece> pieces = envelope_.pieces();
   if (pieces.empty()) return;
   double last_end = pieces.back().end;
@@ -193,6 +195,10 @@ void Visibility::collect_intervals() {
     const SweptWall& wall = envelope_.wall(piece.wall);
     intervals_.push_back(interval_of(wall, piece.begin, is_last ? last_end : piece.end));
     inverse_ranges_.push_back(wall.inverse_range);
+    const VisibleInterval& seen = intervals_.back();
+    const double begin = std::atan2(seen.begin.y(), seen.begin.x());
+    const double end = std::atan2(seen.end.y(), seen.end.x());
+    turns_.push_back({begin, end < begin ? end + kTwoPi : end});  // it spans the bearing pi
   }
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -53,6 +55,10 @@ class Visibility {
   void ranges(double first_bearing, double bearing_step, std::span<double> out,
               std::span<int> walls = {}) const;
 
+  /// The index of the first wall along each of these bearings, or -1, without its range. Where two
+  /// walls meet a bearing to the last bits, either counts.
+  void walls_along(double first_bearing, double bearing_step, std::span<int> walls) const;
+
  private:
   struct Ring {
     double inner = 0.0;  // excluded (m); negative for none
@@ -63,11 +69,14 @@ class Visibility {
   void find_near(const LineMap& map, const Vector2d& observer, double radius);
   void stage_ring(const LineMap& map, const Vector2d& observer, Ring ring, double max_range);
   void collect_intervals();
+  template <class Take>
+  void deal_out(double first_bearing, double bearing_step, std::size_t beams, Take&& take) const;
 
   Envelope envelope_;
   std::vector<int> near_;
   std::vector<VisibleInterval> intervals_;
-  std::vector<Vector2d> inverse_ranges_;  // of each interval's wall
+  std::vector<Vector2d> inverse_ranges_;      // of each interval's wall
+  std::vector<std::array<double, 2>> turns_;  // bearings of each interval's begin and end (rad)
 };
 
 }  // namespace adit
