@@ -102,6 +102,7 @@ void Localizer::forget() {
   last_gyro_.reset();
   trust_.reset();
   clear_ = true;
+  doubled_ = false;
   rival_.reset();
   protection_.reset();
   displacement_.reset();

@@ -154,8 +154,9 @@ class Localizer {
   std::optional<double> last_gyro_;
   Pose2 vehicle_from_laser_;
   Trust trust_;
-  bool clear_ = true;   // the map explained nearly all of it
-  double way_m_ = 0.0;  // since the last scan, by dead reckoning
+  bool clear_ = true;     // the map explained nearly all of it
+  bool doubled_ = false;  // the plan has walls twice there
+  double way_m_ = 0.0;    // since the last scan, by dead reckoning
   std::optional<Rival> rival_;
   Protection protection_;
   RecentDisplacement displacement_;

@@ -8,117 +8,14 @@
 #include <limits>
 #include <random>
 
-#include "support/casting.hpp"
+#include "support/room_drive.hpp"
 
 namespace adit {
 namespace {
 
-constexpr double kMaxRange = 30.0;
+using namespace testing;  // NOLINT(google-build-using-namespace): the scene
 
-// A room that looks different from everywhere.
-std::vector<Segment> room() {
-  const std::vector<Vector2d> corners = {{0, 0}, {10, 0}, {10, 6}, {7, 6},
-                                         {7, 9}, {3, 9},  {3, 7},  {0, 7}};
-  std::vector<Segment> walls;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    walls.push_back({corners[i], corners[(i + 1) % corners.size()]});
-  }
-  return walls;
-}
-
-LocalizerSettings settings() {
-  LocalizerSettings s;
-  s.scanner.range_sigma_m = 0.005;
-  s.scanner.quantisation_m = 0.01;
-  s.scanner.max_range_m = kMaxRange;
-  s.map.sigma_m = 0.0;
-  return s;
-}
-
-// 720 beams in steps of 1 cm; the rounding is the only noise.
-LaserScan scan_from(const LineMap& map, const Pose2& vehicle, double stamp,
-                    const Pose2& mounting = {}) {
-  LaserScan scan;
-  scan.stamp = stamp;
-  scan.first_bearing = -kPi;
-  scan.bearing_step = kTwoPi / 720;
-  scan.max_range = kMaxRange;
-  scan.vehicle_from_laser = mounting;
-  const Pose2 laser = vehicle * mounting;
-  for (std::size_t beam = 0; beam < 720; ++beam) {
-    const double range =
-        testing::cast(map, laser.translation(), laser.theta + scan.bearing(beam), kMaxRange);
-    scan.ranges.push_back(std::isfinite(range) ? 0.01 * std::round(100.0 * range) : kMaxRange);
-  }
-  return scan;
-}
-
-LaserScan blind_scan(double stamp) {
-  LaserScan scan;
-  scan.stamp = stamp;
-  scan.first_bearing = -kPi;
-  scan.bearing_step = kTwoPi / 720;
-  scan.max_range = kMaxRange;
-  scan.ranges.assign(720, kMaxRange);
-  return scan;
-}
-
-// A drive through the room, what the wheels make of it (5 % too long, and turned on the way), and
-// the scans of a laser mounted somewhere.
-struct Drive {
-  std::vector<Pose2> truth;
-  std::vector<Pose2> odometry;
-  std::vector<LaserScan> scans;
-};
-
-Drive drive_through(const LineMap& map, const Pose2& mounting = {}) {
-  Drive drive;
-  Pose2 odometry{};
-  for (int i = 0; i < 14; ++i) {
-    const double t = 0.4 * i;
-    const Pose2 pose{2.0 + t, 2.5 + std::sin(0.8 * t), std::atan(0.8 * std::cos(0.8 * t))};
-    if (!drive.truth.empty()) {
-      Pose2 move = inverse(drive.truth.back()) * pose;
-      move.x *= 1.05;
-      move.theta += 0.004;
-      odometry = odometry * move;
-    }
-    drive.truth.push_back(pose);
-    drive.odometry.push_back(odometry);
-    drive.scans.push_back(scan_from(map, pose, 100.0 + i, mounting));
-  }
-  return drive;
-}
-
-Pose2 rough_guess(const Pose2& truth) {
-  return {truth.x + 0.15, truth.y - 0.1, truth.theta + 0.03};
-}
-
-double position_error(const Pose2& a, const Pose2& b) {
-  return (a.translation() - b.translation()).norm();
-}
-
-void expect_near(const Pose2& a, const Pose2& b, double tolerance) {
-  EXPECT_NEAR(a.x, b.x, tolerance);
-  EXPECT_NEAR(a.y, b.y, tolerance);
-  EXPECT_NEAR(angle_between(a.theta, b.theta), 0.0, tolerance);
-}
-
-class LocalizerTest : public ::testing::Test {
- protected:
-  std::vector<Estimate> run(const Drive& along, const LocalizerSettings& with = settings()) {
-    Localizer localizer(map, with);
-    localizer.start(rough_guess(along.truth.front()));
-    std::vector<Estimate> estimates;
-    for (std::size_t i = 0; i < along.scans.size(); ++i) {
-      estimates.push_back(localizer.update(along.scans[i], along.odometry[i]));
-      estimates.back().pairs = {};  // a view of buffers that go with the localizer
-    }
-    return estimates;
-  }
-  const LineMap map = LineMap::build(room());
-  const Drive drive = drive_through(map);
-};
+class LocalizerTest : public RoomDrive {};
 
 TEST_F(LocalizerTest, FollowsTheVehicle) {
   const auto estimates = run(drive);
@@ -196,24 +93,6 @@ TEST_F(LocalizerTest, OddOdometryAndMountingsCostTheirScanAndNoOther) {
   }
 }
 
-TEST_F(LocalizerTest, AGyroThatFallsSilentLeavesTheTurnToTheWheels) {
-  Localizer localizer(map, settings());
-  localizer.start(rough_guess(drive.truth[0]));
-  localizer.add_gyro(drive.scans[0].stamp, 0.0);
-  localizer.add_gyro(drive.scans[1].stamp, 0.0);
-  double heading = 0.0;
-  for (std::size_t i = 0; i < drive.scans.size(); ++i) {
-    LaserScan late = drive.scans[i];
-    late.stamp += 100.0;  // long after the gyro's last word
-    localizer.update(late, drive.odometry[i]);
-    const Pose2 move = i > 0 ? inverse(drive.odometry[i - 1]) * drive.odometry[i] : Pose2{};
-    if (i > 0) {
-      EXPECT_NEAR(angle_between(heading, localizer.predicted().pose.theta), move.theta, 1e-9) << i;
-    }
-    heading = localizer.estimate().pose.theta;
-  }
-}
-
 TEST_F(LocalizerTest, AScanOfAnotherPlaceIsRefused) {
   const std::vector<Segment> triangle = {{{0, 0}, {12, 1}}, {{12, 1}, {3, 13}}, {{3, 13}, {0, 0}}};
   const LineMap elsewhere = LineMap::build(triangle);
@@ -257,35 +136,6 @@ TEST_F(LocalizerTest, APoseThatExplainsLittleIsDoubtedWhereAnotherExplainsMuch) 
   EXPECT_EQ(status_after({3.0, 4.0, 0.1}, 0.9), Status::ok);
 }
 
-TEST_F(LocalizerTest, TheGyroReplacesTheRotationOfTheWheels) {
-  const Pose2 wrong_move{0.5, 0.0, 0.5};  // the wheels slip; the vehicle did not turn so far
-  const double gyro_turn = -0.2;
-  Localizer localizer(map, settings());
-  localizer.start(rough_guess(drive.truth[0]));
-  localizer.add_gyro(100.0, 3.1);  // its zero is arbitrary, and the step below passes pi
-  const Estimate before = localizer.update(drive.scans[0], drive.odometry[0]);
-  localizer.add_gyro(101.0, wrap_angle(3.1 + gyro_turn));
-  const Estimate after = localizer.update(blind_scan(101.0), drive.odometry[0] * wrong_move);
-  expect_near(after.pose, before.pose * Pose2{0.5, 0.0, gyro_turn}, 1e-12);
-  const double sigma = settings().localizer.gyro_sigma_rad;
-  EXPECT_NEAR(after.covariance(2, 2), before.covariance(2, 2) + sigma * sigma, 1e-12);
-
-  Localizer without(map, settings());
-  without.start(rough_guess(drive.truth[0]));
-  without.update(drive.scans[0], drive.odometry[0]);
-  const Estimate& blind = without.update(blind_scan(101.0), drive.odometry[0] * wrong_move);
-  expect_near(blind.pose, before.pose * wrong_move, 1e-12);
-}
-
-TEST_F(LocalizerTest, TheGyroIsReadAtTheStampOfTheScan) {
-  Localizer localizer(map, settings());
-  localizer.start(drive.truth[0]);
-  for (int i = 0; i <= 20; ++i) localizer.add_gyro(100.0 + 0.1 * i, 3.0 + 0.05 * i);
-  const Estimate before = localizer.update(drive.scans[0], Pose2{});
-  const Estimate& after = localizer.update(blind_scan(101.25), Pose2{});
-  EXPECT_NEAR(angle_between(before.pose.theta, after.pose.theta), 0.625, 1e-9);
-}
-
 TEST_F(LocalizerTest, AMountedLaserGivesThePoseOfTheVehicle) {
   const Pose2 mounting{0.9, -0.3, 0.7};
   const auto estimates = run(drive_through(map, mounting));
@@ -319,56 +169,6 @@ TEST_F(LocalizerTest, StartingAgainForgetsEverything) {
   }
 }
 
-TEST_F(LocalizerTest, OnlyDifferencesOfTheOdometryCount) {
-  const auto expected = run(drive);
-  Drive moved = drive;
-  for (Pose2& pose : moved.odometry) pose = Pose2{-40.0, 17.0, 2.5} * pose;
-  const auto estimates = run(moved);
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    expect_near(estimates[i].pose, expected[i].pose, 1e-9);
-    EXPECT_TRUE(estimates[i].covariance.isApprox(expected[i].covariance, 1e-6));
-  }
-}
-
-TEST_F(LocalizerTest, OdometryMayComeInAnyOrderAndTwice) {
-  std::vector<StampedPose> stream;
-  for (std::size_t i = 0; i < drive.odometry.size(); ++i) {
-    stream.push_back({drive.scans[i].stamp, drive.odometry[i]});
-    stream.push_back({drive.scans[i].stamp, drive.odometry[i]});
-  }
-  std::mt19937 random(5);
-  for (std::size_t i = stream.size(); i > 1; --i) std::swap(stream[i - 1], stream[random() % i]);
-  Localizer localizer(map, settings());
-  localizer.start(rough_guess(drive.truth.front()));
-  for (const StampedPose& pose : stream) localizer.add_odometry(pose);
-  const auto expected = run(drive);
-  for (std::size_t i = 0; i < drive.scans.size(); ++i) {
-    EXPECT_EQ(localizer.update(drive.scans[i]).pose.vector(), expected[i].pose.vector()) << i;
-  }
-}
-
-TEST_F(LocalizerTest, ScansWithEarlierOrRepeatedStampsAreAnsweredInTheOrderOfTheLog) {
-  Drive shuffled = drive;
-  shuffled.scans[5].stamp = shuffled.scans[3].stamp - 0.5;
-  shuffled.scans[6].stamp = shuffled.scans[5].stamp;
-  const auto expected = run(drive);
-  const auto estimates = run(shuffled);
-  for (std::size_t i = 0; i < estimates.size(); ++i) {
-    EXPECT_EQ(estimates[i].stamp, shuffled.scans[i].stamp);
-    EXPECT_EQ(estimates[i].pose.vector(), expected[i].pose.vector()) << i;
-  }
-}
-
-TEST_F(LocalizerTest, WithoutOdometryAStandingVehicleIsFollowed) {
-  Localizer localizer(map, settings());
-  localizer.start(rough_guess(drive.truth[0]));
-  for (int i = 0; i < 3; ++i) {
-    const Estimate& e = localizer.update(drive.scans[0]);
-    EXPECT_EQ(e.status, Status::ok);
-    EXPECT_LT(position_error(e.pose, drive.truth[0]), 0.01);
-  }
-}
-
 TEST_F(LocalizerTest, NothingIsKnownInAnEmptyMap) {
   const LineMap nothing;
   Localizer localizer(nothing, settings());
@@ -392,6 +192,29 @@ TEST_F(LocalizerTest, TheErrorThatThePlanSharesStandsBesideTheFilter) {
     EXPECT_GT(e.covariance(2, 2), 0.05 * 0.05);
     EXPECT_LT(e.covariance(0, 0), 0.3 * 0.3);
   }
+}
+
+TEST_F(LocalizerTest, FeaturesAreMatchedOnTheWayWhereThePlanHasWallsTwice) {
+  std::vector<Segment> walls = room();
+  for (const Segment& wall : room()) {  // once more, 5 cm farther in
+    const Vector2d in = 0.05 * perpendicular(Vector2d((wall.b - wall.a).normalized()));
+    walls.push_back({wall.a + in, wall.b + in});
+  }
+  const LineMap doubled = LineMap::build(walls);
+  LocalizerSettings with = settings();
+  with.map.sigma_m = 0.03;
+  const auto scans_with_features = [&](const LineMap& plan) {
+    Localizer localizer(plan, with);
+    localizer.start(drive.truth.front());
+    int count = 0;
+    for (std::size_t i = 0; i < drive.scans.size(); ++i) {
+      EXPECT_EQ(localizer.update(drive.scans[i], drive.odometry[i]).status, Status::ok);
+      count += !localizer.match().pairs.empty();
+    }
+    return count;
+  };
+  EXPECT_LE(scans_with_features(map), 2);
+  EXPECT_GE(scans_with_features(doubled), 10);
 }
 
 }  // namespace

@@ -39,6 +39,7 @@ struct LocalizerOptions {
   double prior_inflation = 9.0;
   bool features_every_scan = false;
   double clear_evidence_ratio = 0.85;
+  double doubled_ratio = 0.05;
   double features_sigma_m = 0.25;
   double features_sigma_rad = 0.06;
 
@@ -70,6 +71,10 @@ struct LocalizerOptions {
           "match features at every scan, not only where the prediction is unsure");
     field("clear_evidence_ratio", self.clear_evidence_ratio,
           "features are matched as well where the map explained less than this of the last scan");
+    field(
+        "doubled_ratio", self.doubled_ratio,
+        "and where more than this share of its beams on walls may have met another wall close by: "
+        "in a plan that has walls twice a fit from dead reckoning alone stays with the wrong one");
     field("features_sigma_m", self.features_sigma_m,
           "a prediction less sure than this needs features to find the pose (m)");
     field("features_sigma_rad", self.features_sigma_rad, "the same for the heading (rad)");

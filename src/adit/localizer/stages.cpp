@@ -91,7 +91,7 @@ bool Localizer::wants_features() const {
   const Matrix3d& covariance = predicted_.covariance;
   const double metres = options.features_sigma_m;
   const double radians = options.features_sigma_rad;
-  return options.features_every_scan || !clear_ || trust_.contradicted() ||
+  return options.features_every_scan || !clear_ || doubled_ || trust_.contradicted() ||
          covariance.topLeftCorner<2, 2>().trace() > metres * metres ||
          covariance(2, 2) > radians * radians;
 }
@@ -193,6 +193,7 @@ void Localizer::track_pose() {
   FitQuality quality = quality_of(scan_fit_);
   quality.agrees = tracker_.chi_square(fix) < gate;
   clear_ = quality.evidence_ratio > settings_.localizer.clear_evidence_ratio;
+  doubled_ = scan_fit_.counts.between > settings_.localizer.doubled_ratio * scan_fit_.counts.wall;
   believed_ = trust_.next(quality, way_m_, settings_.status) && hypotheses_.empty();
   if (believed_) {
     trusted_m_ += way_m_;

@@ -14,6 +14,7 @@ struct BeamCounts {
   double before = 0.0;     ///< something before it
   double behind = 0.0;     ///< something behind it: the wall is not there
   double no_return = 0.0;  ///< nothing that came back
+  double between = 0.0;    ///< of those on the wall, any of several walls that stand close
   double unmapped = 0.0;   ///< something where the map has nothing at all
   double returns() const { return wall + before + behind + unmapped; }
 };

@@ -83,8 +83,21 @@ void Refiner::count_beams() {
   const BeamSummary summary = classifier_.summary(residuals_.beams());
   fit_.counts = summary.counts;
   fit_.counts.unmapped = residuals_.unmapped();
+  fit_.counts.between = count_between();
   fit_.log_evidence = classifier_.log_evidence();
   fit_.expected_log_evidence = summary.expected_log_evidence;
+}
+
+/// Beams that the plan leaves several walls to have met, too close to be told apart: its walls are
+/// drawn twice.
+double Refiner::count_between() const {
+  constexpr double kTold = 0.1;  // of the noise's variance
+  const std::span<const BeamResidual> beams = residuals_.beams();
+  double between = 0.0;
+  for (std::size_t k = 0; k < beams.size(); ++k) {
+    if (beams[k].wall_variance > kTold * noise_[k]) between += classifier_.on_wall()[k];
+  }
+  return between;
 }
 
 std::span<const int> Refiner::worst_walls(std::size_t most) {

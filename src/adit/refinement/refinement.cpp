@@ -30,6 +30,10 @@ constexpr std::size_t kCoarseBeams = 250;
 constexpr double kCoarseLength = 2.0;
 constexpr int kMostCoarse = 3;
 
+// A start no farther off than this needs no leading (one sigma; m, rad).
+constexpr double kCloseMetres = 0.03;
+constexpr double kCloseTurn = radians(0.3);
+
 // A step that is so many times longer than the options allow may be the last all the same: over so
 // short a way the map looks the same but for a beam or two at an edge.
 constexpr double kSmoothLength = 3.0;
@@ -52,6 +56,11 @@ void add_share(int wall, const NormalEquations<N>& equations, std::vector<WallSh
   }
 }
 
+bool is_close(const Matrix3d& covariance) {
+  return covariance.topLeftCorner<2, 2>().trace() < kCloseMetres * kCloseMetres &&
+         covariance(2, 2) < kCloseTurn * kCloseTurn;
+}
+
 /// Which of two walls a beam met.
 WallDoubt doubt_of(const RefinementInput& input, const Matrix3d& spread) {
   return {spread, input.map_error.sigma_m(), input.map_error.distortion_ratio,
@@ -71,7 +80,7 @@ const ScanFit& Refiner::refine(const RefinementInput& input, const PoseWithCovar
   last_share_ = std::numeric_limits<double>::infinity();
   residuals_.set_scan(input.scan, input.scanner, input.missing_wall);
   // A few of the beams lead near the pose; all of them find it.
-  std::size_t stride = 1 + input.scan.ranges.size() / kCoarseBeams;
+  std::size_t stride = is_close(start.covariance) ? 1 : 1 + input.scan.ranges.size() / kCoarseBeams;
   while (!fit_.converged && fit_.iterations < options.max_iterations) {
     ++fit_.iterations;
     fit_.pose = next_;

@@ -110,6 +110,7 @@ class Refiner {
               Matrix3d& spread);
   double log_likelihood(const RefinementOptions& options) const;
   void count_beams();
+  double count_between() const;
   bool is_smooth(double length, const RefinementOptions& options) const;
   bool is_last(double length, const RefinementOptions& options);
 
