@@ -155,13 +155,12 @@ struct RelocationOptions {
   double apart_m = 1.0;
   double apart_rad = radians(5.0);
   double second_look_gap = 24.0;
-  double sure_gap = 10.0;
-  double lone_gap = 18.0;
-  double not_alone_evidence_ratio = 0.86;
-  double sure_evidence_ratio = 0.85;
-  double sure_evidence_per_gap = 0.012;
-  double sure_evidence_per_through = 10.0;
-  double sure_evidence_per_error = 0.2;
+  double sure_gap = 7.0;
+  double sure_gap_per_through = 100.0;
+  double sure_gap_per_missing = 20.0;
+  double sure_gap_per_error = 4.0;
+  double sure_gap_per_evidence = 40.0;
+  double sure_evidence_ratio = 0.8;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -248,19 +247,22 @@ struct RelocationOptions {
           "a pose that others come nearer to than this (log) is trusted only after a second look "
           "that fits more of them");
     field("sure_gap", self.sure_gap,
-          "a pose is sure only where every other one is less likely by this (log) ...");
-    field("lone_gap", self.lone_gap, "... and where one is not less likely by even this ...");
-    field("not_alone_evidence_ratio", self.not_alone_evidence_ratio,
-          "... it must explain so much of what a scan of nothing but the map's walls would ...");
-    field("sure_evidence_ratio", self.sure_evidence_ratio, "... and in any case this much ...");
-    field("sure_evidence_per_gap", self.sure_evidence_per_gap,
-          "... less by so much per unit by which the others are less likely ...");
-    field("sure_evidence_per_through", self.sure_evidence_per_through,
-          "... more by so much per share of the returns that come from behind the map's walls or "
-          "from where it has none ...");
-    field("sure_evidence_per_error", self.sure_evidence_per_error,
-          "... and by so much more where the plan errs as much as stated: a larger error lets more "
-          "poses agree by chance");
+          "a pose is sure only where every other one is less likely by this (log), for a scan that "
+          "sees all around; a scan of half a turn agrees with twice as many places by chance, and "
+          "needs twice as much ...");
+    field(
+        "sure_gap_per_through", self.sure_gap_per_through,
+        "... and by so much more per share of the returns that come from behind the map's walls or "
+        "from where it has none ...");
+    field("sure_gap_per_missing", self.sure_gap_per_missing,
+          "... per share of the beams that should have met a wall and brought no return ...");
+    field("sure_gap_per_error", self.sure_gap_per_error,
+          "... where the plan errs as much as stated, for a larger error lets more poses agree by "
+          "chance ...");
+    field("sure_gap_per_evidence", self.sure_gap_per_evidence,
+          "... and per share by which less is explained, of what a scan of nothing but the map's "
+          "walls would, than ...");
+    field("sure_evidence_ratio", self.sure_evidence_ratio, "... this share");
   }
 };
 

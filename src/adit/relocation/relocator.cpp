@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -50,6 +51,21 @@ MapError scaled(const MapError& error, double ratio) {
 
 double error_ratio(const MapError& error, const MapError& stated) {
   return stated.sigma_m() > 0.0 ? error.sigma_m() / stated.sigma_m() : 0.0;
+}
+
+/// The share of all bearings in which something came back.
+double turn_in_sight(const LaserScan& scan, const ScannerModel& scanner) {
+  constexpr std::size_t kSectors = 72;
+  std::array<bool, kSectors> seen{};
+  const double no_return = scanner.no_return_from(scan.max_range);
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
+    const double range = scan.ranges[i];
+    if (!(range > 0.0 && range >= scanner.min_range_m && range < no_return)) continue;
+    const double turns = scan.bearing(i) / kTwoPi;
+    const auto sector = static_cast<std::size_t>((turns - std::floor(turns)) * kSectors);
+    seen[std::min(sector, kSectors - 1)] = true;
+  }
+  return static_cast<double>(std::count(seen.begin(), seen.end(), true)) / kSectors;
 }
 
 bool is_near(const Pose2& a, const Pose2& b, double metres, double radians) {
@@ -116,7 +132,7 @@ Status Relocator::look(const RelocationQuery& query, std::span<const PlaceMatch>
   result_.gap = gap_to_others(options);
   weigh(options);
   examine_best(query, likelihood);
-  return verdict(query.map_error, options, status);
+  return verdict(query, options, status);
 }
 
 double Relocator::likelihood_at(const RelocationQuery& query, const Pose2& map_from_vehicle,
@@ -306,21 +322,23 @@ void Relocator::examine_best(const RelocationQuery& query, const LikelihoodOptio
 }
 
 /// Whether the best pose is the place, and not one that resembles it by chance. Of all places of a
-/// mine one will resemble any scan; it then explains part of it, sees through walls here and there,
-/// needs a plan that errs, and is little better than the next: together these weigh. The true place
-/// may be missing among the others; one that resembles it has some of them near.
-bool Relocator::stands_alone(const MapError& stated, const RelocationOptions& options) const {
-  const double evidence = result_.poses.front().quality.evidence_ratio;
-  if (result_.gap < options.sure_gap) return false;
-  if (result_.gap < options.lone_gap && evidence < options.not_alone_evidence_ratio) return false;
+/// mine one will resemble any scan: it is little better than the next, sees through walls here and
+/// there, needs a plan that errs and explains part of the scan; together these weigh. How much
+/// better than the next one chance makes it falls off exponentially, half as fast for a scan of
+/// half a turn.
+bool Relocator::stands_alone(const RelocationQuery& query, const RelocationOptions& options) const {
+  const BeamShares& shares = result_.shares;
+  const double unexplained =
+      options.sure_evidence_ratio - result_.poses.front().quality.evidence_ratio;
   const double asked =
-      options.sure_evidence_ratio - options.sure_evidence_per_gap * result_.gap +
-      options.sure_evidence_per_through * (result_.shares.through + result_.shares.unmapped) +
-      options.sure_evidence_per_error * error_ratio(result_.map_error, stated);
-  return evidence >= asked;
+      options.sure_gap + options.sure_gap_per_through * (shares.through + shares.unmapped) +
+      options.sure_gap_per_missing * shares.missing +
+      options.sure_gap_per_error * error_ratio(result_.map_error, query.map_error) +
+      options.sure_gap_per_evidence * std::max(0.0, unexplained);
+  return turn_in_sight(query.scan, query.scanner) * result_.gap >= asked;
 }
 
-Status Relocator::verdict(const MapError& stated, const RelocationOptions& options,
+Status Relocator::verdict(const RelocationQuery& query, const RelocationOptions& options,
                           const StatusOptions& status) const {
   if (result_.poses.empty()) return Status::lost;
   const RankedPose& best = result_.poses.front();
@@ -333,7 +351,7 @@ Status Relocator::verdict(const MapError& stated, const RelocationOptions& optio
     if (!is_near(best.pose, pose.pose, options.apart_m, options.merge_rad)) rivals += pose.weight;
   }
   if (rivals > options.rival_weight) return Status::ambiguous;
-  if (!stands_alone(stated, options)) return Status::ambiguous;
+  if (!stands_alone(query, options)) return Status::ambiguous;
   return open_direction(best.covariance, status) ? Status::degraded : Status::ok;
 }
 

@@ -90,8 +90,8 @@ class Relocator {
   void weigh(const RelocationOptions& options);
   double gap_to_others(const RelocationOptions& options) const;
   void examine_best(const RelocationQuery& query, const LikelihoodOptions& likelihood);
-  bool stands_alone(const MapError& stated, const RelocationOptions& options) const;
-  Status verdict(const MapError& stated, const RelocationOptions& options,
+  bool stands_alone(const RelocationQuery& query, const RelocationOptions& options) const;
+  Status verdict(const RelocationQuery& query, const RelocationOptions& options,
                  const StatusOptions& status) const;
 
   const LineMap& map_;

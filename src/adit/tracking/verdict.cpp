@@ -57,12 +57,13 @@ bool Trust::disagrees(const FitQuality& quality, const StatusOptions& options) c
 }
 
 /// Whether the vehicle seems to have been carried off: a scan is explained less than the last few
-/// were, and rock is seen through.
+/// were, and rock is seen through; or so much less that nothing can have come into its way.
 bool Trust::is_sudden(const FitQuality& quality, const StatusOptions& options) const {
   if (contradicted_) return false;
   const bool is_known = scans_ >= options.usual_scans;
   const double evidence = is_known ? recent_ : options.first_evidence_ratio;
   const double behind = is_known ? recent_behind_ : options.first_behind_ratio;
+  if (is_known && evidence - quality.evidence_ratio > options.sudden_drop_ratio) return true;
   return evidence - quality.evidence_ratio > options.sudden_evidence_ratio &&
          quality.behind_ratio - behind > options.sudden_behind_ratio;
 }

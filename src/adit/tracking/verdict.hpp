@@ -30,6 +30,7 @@ struct StatusOptions {
   double jump_chi_square = 30.0;
   double sudden_evidence_ratio = 0.15;
   double sudden_behind_ratio = 0.02;
+  double sudden_drop_ratio = 0.3;
   double usual_scans = 4.0;
   double first_evidence_ratio = 0.85;
   double first_behind_ratio = 0.02;
@@ -89,6 +90,9 @@ struct StatusOptions {
           "... and of which more than of those, by this, comes from behind the map's walls "
           "contradicts "
           "the pose: what stands in the way makes no beam longer");
+    field("sudden_drop_ratio", self.sudden_drop_ratio,
+          "one that is explained less well by this contradicts it whatever it shows: nothing that "
+          "drives into sight hides so much from one scan to the next");
     field("usual_scans", self.usual_scans, "what is usual is known after so many scans");
     field("first_evidence_ratio", self.first_evidence_ratio,
           "before, so much of what could be explained is taken for usual ...");

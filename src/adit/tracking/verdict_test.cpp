@@ -138,6 +138,20 @@ TEST(Trust, ASuddenLookThroughRockContradictsThePose) {
   EXPECT_TRUE(trust.contradicted());
 }
 
+TEST(Trust, NothingHidesAThirdOfTheScanAtOnce) {
+  const StatusOptions options;
+  const auto trusts = [&](double drop, int scans_before) {
+    Trust trust;
+    for (int i = 0; i < scans_before; ++i) EXPECT_TRUE(trust.next(good(), 1.0, options));
+    FitQuality hidden = good();
+    hidden.evidence_ratio -= drop;
+    return trust.next(hidden, 1.0, options);
+  };
+  EXPECT_TRUE(trusts(options.sudden_drop_ratio - 0.02, 10));
+  EXPECT_FALSE(trusts(options.sudden_drop_ratio + 0.02, 10));
+  EXPECT_TRUE(trusts(options.sudden_drop_ratio + 0.02, 1));  // nobody knows yet what is usual
+}
+
 /// How far (m) the vehicle must go in steps until the pose is trusted again.
 double way_to_regain(Trust& trust, const FitQuality& quality, double step_m) {
   double way = step_m;
