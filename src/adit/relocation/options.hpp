@@ -148,19 +148,19 @@ struct RelocationOptions {
   double merge_m = 0.5;
   double merge_rad = radians(3.0);
   double unfitted_gap = 50.0;
-  double hopeless_gap = 25.0;
+  double hopeless_gap = 60.0;
   double least_map_ratio = 0.1;
   double least_weight = 1e-4;
   double rival_weight = 0.02;
   double apart_m = 1.0;
   double apart_rad = radians(5.0);
   double second_look_gap = 24.0;
-  double sure_gap = 7.0;
-  double sure_gap_per_through = 100.0;
+  double sure_gap = 8.0;
+  double sure_gap_per_through = 150.0;
   double sure_gap_per_missing = 20.0;
   double sure_gap_per_error = 4.0;
-  double sure_gap_per_evidence = 40.0;
-  double sure_evidence_ratio = 0.8;
+  double sure_gap_per_evidence = 100.0;
+  double sure_evidence_ratio = 0.75;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -248,8 +248,8 @@ struct RelocationOptions {
           "that fits more of them");
     field("sure_gap", self.sure_gap,
           "a pose is sure only where every other one is less likely by this (log), for a scan that "
-          "sees all around; a scan of half a turn agrees with twice as many places by chance, and "
-          "needs twice as much ...");
+          "sees all around; one that sees part of a turn agrees with more places by chance, and is "
+          "asked for as much over the square of that part ...");
     field(
         "sure_gap_per_through", self.sure_gap_per_through,
         "... and by so much more per share of the returns that come from behind the map's walls or "

@@ -55,12 +55,12 @@ double Protection::update(const PoseWithCovariance& estimate, const PoseWithCova
   }
   const Vector3d to_prediction = difference(fitted_at, prediction.pose);
   const Vector3d to_estimate = difference(fitted_at, estimate.pose);
-  double level = radius_of(estimate.covariance, options.risk);
+  double level = options.margin * radius_of(estimate.covariance, options.risk);
   const auto leave_out = [&](const WallEvidence& wall, const Vector3d& followed) {
     const Matrix3d information = all.information - wall.information;
     const Vector3d score = all.score - wall.score + loose_prior * (to_prediction + followed);
     const Vector3d separation = (information + loose_prior).inverse() * score - to_estimate;
-    const double radius = radius_of((information + prior).inverse(), options.risk);
+    const double radius = options.margin * radius_of((information + prior).inverse(), options.risk);
     level = std::max(level, separation.head<2>().norm() + radius);
     keep(wall.wall, separation);
   };
@@ -70,7 +70,7 @@ double Protection::update(const PoseWithCovariance& estimate, const PoseWithCova
   for (const Followed& past : before_) {
     if (!past.in_sight) leave_out({past.wall, Matrix3d::Zero(), Vector3d::Zero()}, past.separation);
   }
-  return options.margin * level;
+  return level;
 }
 
 /// What was remembered of a wall that is in sight again.

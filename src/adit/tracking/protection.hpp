@@ -17,7 +17,7 @@ struct WallEvidence {
 /// How the protection level is made.
 struct ProtectionOptions {
   double risk = 1e-3;
-  double margin = 1.25;
+  double margin = 1.3;
   double loose_prior = 9.0;
 
   template <class Self, class Field>
@@ -25,7 +25,7 @@ struct ProtectionOptions {
     field("risk", self.risk,
           "probability that the position errs by more than the protection level");
     field("margin", self.margin,
-          "factor on the radius that a normal distribution of the stated covariance would need");
+          "factor on the radius that a normal distribution of a covariance would need");
     field(
         "loose_prior", self.loose_prior,
         "where one wall is left out, dead reckoning's variance counts so many times: without that "
