@@ -7,9 +7,6 @@
 namespace adit {
 namespace {
 
-// The map looks the same from places no farther apart than this, but for a beam at an edge (m).
-constexpr double kSamePlace = 0.01;
-
 // A beam that ends farther than this from the wall in its way met something else, no neighbour (m).
 constexpr double kFarOff = 1.5;
 
@@ -231,13 +228,14 @@ void BeamResiduals::look_from(const LineMap& map, const Station& station, const 
   const Vector2d centre = station.laser.translation();
   const bool moves = timing_.step_s != 0.0;
   const std::span<int> walls(walls_.data(), count);
-  if (!(&map == swept_map_ && (centre - swept_from_).norm() <= kSamePlace)) {
+  if (!(&map == swept_map_ && (centre - swept_from_).norm() <= options.same_place_m)) {
     visibility_.sweep(map, centre, reach_);
     swept_map_ = &map;
     swept_from_ = centre;
   }
   look_up_walls(station, stride, walls);
-  const bool looks_beyond = stride == 1;  // the few beams that lead the way do without
+  const bool looks_beyond =
+      options.looks_beyond && stride == 1;  // the few beams that lead the way do without
   WallLine wall;
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = station.begin + k * stride;

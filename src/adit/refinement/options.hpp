@@ -15,6 +15,8 @@ struct RefinementOptions {
   double max_step_m = 0.7;
   double max_step_rad = 0.15;
   double station_spacing_m = 0.1;
+  double same_place_m = 0.01;
+  bool looks_beyond = true;
   double neighbour_reach_m = 0.3;
   double beyond_ratio = 0.1;
   double corner_reach_ratio = 5.0;
@@ -38,6 +40,11 @@ struct RefinementOptions {
     field("max_step_rad", self.max_step_rad, "a step that turns more is shortened to this (rad)");
     field("station_spacing_m", self.station_spacing_m,
           "on the move, the map is looked at anew after so much way of the scanner (m)");
+    field("looks_beyond", self.looks_beyond,
+          "a beam that went through a wall is held against the one that it ends at");
+    field("same_place_m", self.same_place_m,
+          "what the map shows is worked out anew after a step of so much (m): but for a beam at an "
+          "edge, all is the same from nearer by");
     field(
         "neighbour_reach_m", self.neighbour_reach_m,
         "a wall no farther than this from the one in the beam's way may be what the beam met (m)");

@@ -143,6 +143,7 @@ struct RelocationOptions {
   int listed = 20;
   double doubt_rad = 0.015;
   double start_m = 0.2;
+  double same_place_m = 0.15;
   double basin_m = 1.0;
   double basin_rad = 0.1;
   double merge_m = 0.5;
@@ -155,7 +156,7 @@ struct RelocationOptions {
   double apart_m = 1.0;
   double apart_rad = radians(5.0);
   double second_look_gap = 24.0;
-  double sure_gap = 8.0;
+  double sure_gap = 9.5;
   double sure_gap_per_through = 150.0;
   double sure_gap_per_missing = 20.0;
   double sure_gap_per_error = 4.0;
@@ -223,6 +224,9 @@ struct RelocationOptions {
     field("refined", self.refined, "and so many of those with all points");
     field("listed", self.listed, "no more poses than this are given as answers");
     field("start_m", self.start_m, "how far off a pose from the search is, one sigma (m)");
+    field("same_place_m", self.same_place_m,
+          "a fit with some of the beams works out what the map shows anew after steps of so much "
+          "(m)");
     field("doubt_rad", self.doubt_rad, "the same for its heading (rad)");
     field("basin_m", self.basin_m,
           "what the scan leaves open is no wider than this, one sigma (m)");

@@ -97,7 +97,9 @@ const RelocationResult& Relocator::locate(const RelocationQuery& query,
                                           const LikelihoodOptions& likelihood,
                                           const RefinementOptions& refinement,
                                           const StatusOptions& status) {
-  refinement_ = refinement;
+  refinement_ = coarse_refinement_ = refinement;
+  coarse_refinement_.same_place_m = options.same_place_m;
+  coarse_refinement_.looks_beyond = false;
   likelihood_.set_walls(index_.walls());
   likelihood_.set_scan(query.scan, query.scanner, query.map_error, likelihood);
   const auto matches = search_.find(index_, query.scan, query.scanner, query.within, options);
@@ -141,10 +143,11 @@ double Relocator::likelihood_at(const RelocationQuery& query, const Pose2& map_f
 }
 
 const ScanFit& Relocator::fit(const RefinementInput& input, const Pose2& pose,
-                              const RelocationOptions& options) {
+                              const RelocationOptions& options,
+                              const RefinementOptions& refinement) {
   const PoseWithCovariance prior{pose, basin(options.basin_m, options.basin_rad)};
   const PoseWithCovariance start{pose, basin(options.start_m, options.doubt_rad)};
-  return refiner_.refine(input, prior, start, refinement_);
+  return refiner_.refine(input, prior, start, refinement);
 }
 
 /// Keeps the most likely, none near a better one.
@@ -176,7 +179,7 @@ void Relocator::fit_coarsely(const RelocationQuery& query, const RelocationOptio
   thin(query.scan, thinned_);
   const RefinementInput input{map_, thinned_, query.scanner, query.map_error, query.motion};
   for (Hypothesis& hypothesis : hypotheses_) {
-    const ScanFit& fitted = fit(input, hypothesis.pose, options);
+    const ScanFit& fitted = fit(input, hypothesis.pose, options, coarse_refinement_);
     hypothesis = {fitted.pose, fitted.log_likelihood};
   }
   keep_best(hypotheses_, count(options.rated_again), options);
@@ -203,7 +206,7 @@ void Relocator::fit_thinned(const RelocationQuery& query, const MapError& error,
                             const RelocationOptions& options) {
   const RefinementInput input{map_, thinned_, query.scanner, error, query.motion};
   for (Hypothesis& hypothesis : hypotheses_) {
-    hypothesis.pose = fit(input, hypothesis.pose, options).pose;
+    hypothesis.pose = fit(input, hypothesis.pose, options, coarse_refinement_).pose;
   }
 }
 
@@ -267,7 +270,7 @@ void Relocator::take_fits(const RelocationQuery& query, const MapError& error,
   const Matrix3d confidence = basin(options.basin_m, options.basin_rad).inverse();
   result_.poses.clear();
   for (const Hypothesis& hypothesis : hypotheses_) {
-    const ScanFit& fitted = fit(input, hypothesis.pose, options);
+    const ScanFit& fitted = fit(input, hypothesis.pose, options, refinement_);
     RankedPose ranked;
     ranked.pose = fitted.pose;
     ranked.covariance = (fitted.information + confidence).inverse();

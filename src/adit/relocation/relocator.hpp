@@ -84,7 +84,7 @@ class Relocator {
   void fit_all_points(const RelocationQuery& query, const RelocationOptions& options);
   double likelihood_at(const RelocationQuery& query, const Pose2& map_from_vehicle, double doubt_m);
   const ScanFit& fit(const RefinementInput& input, const Pose2& pose,
-                     const RelocationOptions& options);
+                     const RelocationOptions& options, const RefinementOptions& refinement);
   void take_fits(const RelocationQuery& query, const MapError& error,
                  const RelocationOptions& options);
   void weigh(const RelocationOptions& options);
@@ -101,6 +101,7 @@ class Relocator {
   ScanLikelihood all_beams_;
   Refiner refiner_;
   RefinementOptions refinement_;
+  RefinementOptions coarse_refinement_;  // of the first fits, with some of the beams
   LaserScan thinned_;
   std::vector<Hypothesis> hypotheses_;
   RelocationResult result_;
