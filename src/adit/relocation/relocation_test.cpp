@@ -202,6 +202,44 @@ TEST(Relocator, FindsThePoseBesideClutter) {
   EXPECT_TRUE(is_at(result.poses.front().pose, truth, 0.05, 0.01));
 }
 
+TEST(Relocator, AViewOfAnEighthOfATurnIsNotTrusted) {
+  const LineMap map = LineMap::build(irregular_plan());
+  const PlaceIndex index = PlaceIndex::build(map);
+  const Pose2 truth{20.3, 18.2, 0.4};
+  LaserScan scan = scan_from(map, truth);
+  EXPECT_EQ(locate(map, index, scan).verdict, Status::ok);
+  scan.ranges.resize(45);
+  const Status verdict = locate(map, index, scan).verdict;
+  EXPECT_TRUE(verdict == Status::ambiguous || verdict == Status::lost) << to_string(verdict);
+}
+
+/// What is asked of a pose grows with the returns from behind walls, and with what is unexplained.
+TEST(Relocator, WhatSpeaksForChanceAsksForALongerLead) {
+  const LineMap map = LineMap::build(irregular_plan());
+  const PlaceIndex index = PlaceIndex::build(map);
+  const Pose2 truth{20.3, 18.2, 0.4};
+  LaserScan scan = scan_from(map, truth);
+  for (std::size_t beam = 100; beam < 120; ++beam) scan.ranges[beam] += 2.5;
+  const ScannerModel model = scanner();
+  const MapError error = map_error();
+  const auto verdict = [&](const RelocationOptions& options) {
+    Relocator relocator(map, index);
+    const RelocationResult& result = relocator.locate({scan, model, error, {}, {}}, options);
+    EXPECT_TRUE(is_at(result.poses.front().pose, truth, 0.1, 0.02));
+    EXPECT_GT(result.shares.through, 0.03);
+    return result.verdict;
+  };
+  RelocationOptions lenient;
+  lenient.sure_gap_per_through = 0.0;
+  EXPECT_EQ(verdict(lenient), Status::ok);
+  RelocationOptions strict = lenient;
+  strict.sure_gap_per_through = 5000.0;
+  EXPECT_EQ(verdict(strict), Status::ambiguous);
+  strict = lenient;
+  strict.sure_evidence_ratio = 2.0;  // more than any scan can explain
+  EXPECT_EQ(verdict(strict), Status::ambiguous);
+}
+
 TEST(Relocator, AnswersForTheVehicleNotForItsLaser) {
   const LineMap map = LineMap::build(irregular_plan());
   const PlaceIndex index = PlaceIndex::build(map);
