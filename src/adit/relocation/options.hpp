@@ -270,4 +270,16 @@ struct RelocationOptions {
   }
 };
 
+/// With more of everything that thins out the fits: for a second look.
+inline RelocationOptions thorough(RelocationOptions options) {
+  options.fewest_candidates *= 2;
+  options.candidates *= 2;
+  options.score_slack *= 2.0;
+  options.unfitted_gap *= 3.0;
+  options.rated_again *= 3;
+  options.fitted_again *= 3;
+  options.refined *= 3;
+  return options;
+}
+
 }  // namespace adit

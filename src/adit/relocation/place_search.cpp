@@ -32,7 +32,7 @@ std::span<const PlaceMatch> PlaceSearch::find(const PlaceIndex& index, const Las
   approach(index.walls(), corner_search_.find(index, scan, scanner, area, most, options.corners),
            part_of(corners, options.corners_moved_again_share, options.corners_moved_again));
   quick_fit_.set_scan(scan, scanner, count_of(options.quick_beams));
-  settle(index.walls(), static_cast<float>(options.agreement_per_through));
+  settle(index.walls(), options);
   return choose(options);
 }
 
@@ -53,14 +53,28 @@ void PlaceSearch::approach(const WallField& walls, std::span<const PlaceMatch> m
   matches_.insert(matches_.end(), approached_.begin(), approached_.end());
 }
 
-/// Moves what was taken all the way. What returns say from behind walls weighs against the rest.
-void PlaceSearch::settle(const WallField& walls, float per_through) {
+/// Moves what was taken all the way. What returns say from behind walls weighs against the rest; it
+/// is asked only of those that may be chosen, now or at a second look.
+void PlaceSearch::settle(const WallField& walls, const RelocationOptions& options) {
   for (PlaceMatch& match : matches_) {
     const QuickFit::Result moved = quick_fit_.settle(walls, match.map_from_laser);
     match.map_from_laser = moved.map_from_laser;
-    match.agreement = moved.agreement;
-    match.score = moved.agreement - per_through * quick_fit_.through(walls, moved.map_from_laser);
+    match.agreement = match.score = moved.agreement;
   }
+  std::sort(matches_.begin(), matches_.end(), scores_more);
+  const RelocationOptions widest = thorough(options);
+  const auto per_through = static_cast<float>(options.agreement_per_through);
+  const auto slack = static_cast<float>(widest.score_slack);
+  const std::size_t fewest = count_of(widest.fewest_candidates);
+  float best = -1.0F;
+  std::size_t rated = 0;
+  for (; rated < matches_.size(); ++rated) {
+    PlaceMatch& match = matches_[rated];
+    if (rated >= fewest && match.agreement < best - slack) break;
+    match.score -= per_through * quick_fit_.through(walls, match.map_from_laser);
+    best = std::max(best, match.score);
+  }
+  matches_.resize(rated);
 }
 
 /// Those no farther behind the first than by the slack. Of those that are one, the pose that agrees

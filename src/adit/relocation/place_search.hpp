@@ -25,7 +25,7 @@ class PlaceSearch {
 
  private:
   void approach(const WallField& walls, std::span<const PlaceMatch> matches, std::size_t most);
-  void settle(const WallField& walls, float per_through);
+  void settle(const WallField& walls, const RelocationOptions& options);
 
   ViewSearch view_search_;
   CornerSearch corner_search_;

@@ -73,18 +73,6 @@ bool is_near(const Pose2& a, const Pose2& b, double metres, double radians) {
   return apart.head<2>().norm() <= metres && std::abs(apart.z()) <= radians;
 }
 
-/// With more of everything that thins out the fits.
-RelocationOptions thorough(RelocationOptions options) {
-  options.fewest_candidates *= 2;
-  options.candidates *= 2;
-  options.score_slack *= 2.0;
-  options.unfitted_gap *= 3.0;
-  options.rated_again *= 3;
-  options.fitted_again *= 3;
-  options.refined *= 3;
-  return options;
-}
-
 /// The search's basin: how far a fit may be from where it began.
 Matrix3d basin(double metres, double radians) {
   return Vector3d(metres, metres, radians).cwiseAbs2().asDiagonal();
