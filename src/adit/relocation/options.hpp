@@ -156,9 +156,12 @@ struct RelocationOptions {
   double apart_m = 1.0;
   double apart_rad = radians(5.0);
   double second_look_gap = 24.0;
-  double sure_gap = 9.5;
+  double sure_gap = 6.5;
   double sure_gap_per_through = 150.0;
   double sure_gap_per_missing = 20.0;
+  double sure_gap_per_line = 4.0;
+  int enough_lines = 7;
+  double line_m = 1.0;
   double sure_gap_per_error = 4.0;
   double sure_gap_per_evidence = 100.0;
   double sure_evidence_ratio = 0.75;
@@ -260,6 +263,10 @@ struct RelocationOptions {
         "from where it has none ...");
     field("sure_gap_per_missing", self.sure_gap_per_missing,
           "... per share of the beams that should have met a wall and brought no return ...");
+    field("sure_gap_per_line", self.sure_gap_per_line, "... per line that the scan has fewer ...");
+    field("enough_lines", self.enough_lines, "... than this many ...");
+    field("line_m", self.line_m,
+          "... of so many metres at least: any mine has a drift with an end like it ...");
     field("sure_gap_per_error", self.sure_gap_per_error,
           "... where the plan errs as much as stated, for a larger error lets more poses agree by "
           "chance ...");

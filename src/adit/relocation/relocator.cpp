@@ -90,6 +90,7 @@ const RelocationResult& Relocator::locate(const RelocationQuery& query,
   coarse_refinement_.looks_beyond = false;
   likelihood_.set_walls(index_.walls());
   likelihood_.set_scan(query.scan, query.scanner, query.map_error, likelihood);
+  count_lines(query, options);
   const auto matches = search_.find(index_, query.scan, query.scanner, query.within, options);
   result_.verdict = look(query, matches, options, likelihood, status);
   const bool is_sure = result_.verdict == Status::ok || result_.verdict == Status::degraded;
@@ -300,6 +301,15 @@ double Relocator::gap_to_others(const RelocationOptions& options) const {
   return gap;
 }
 
+/// How much shape the scan has.
+void Relocator::count_lines(const RelocationQuery& query, const RelocationOptions& options) {
+  const FeatureList& features =
+      extractor_.extract(query.scan, query.scanner, options.corners.extraction);
+  result_.lines = static_cast<int>(
+      std::count_if(features.lines.begin(), features.lines.end(),
+                    [&](const Line& line) { return line.length() >= options.line_m; }));
+}
+
 /// What becomes of the beams at the best pose.
 void Relocator::examine_best(const RelocationQuery& query, const LikelihoodOptions& likelihood) {
   constexpr int kBeams = 360;
@@ -313,17 +323,19 @@ void Relocator::examine_best(const RelocationQuery& query, const LikelihoodOptio
 }
 
 /// Whether the best pose is the place, and not one that resembles it by chance. Of all places of a
-/// mine one will resemble any scan: it is little better than the next, sees through walls here and
-/// there, needs a plan that errs and explains part of the scan; together these weigh. How much
-/// better than the next one chance makes it falls off exponentially, and slower with the square of
-/// the part of a turn that the scan sees (measured with scans of another mine, of 180 to 360
-/// degrees).
+/// mine one will resemble any scan, the more so the less shape that has: it is little better than
+/// the next, sees through walls here and there, needs a plan that errs and explains part of the
+/// scan; together these weigh. How much better than the next one chance makes it falls off
+/// exponentially, and slower with the square of the part of a turn that the scan sees (measured
+/// with scans of another mine, of 180 to 360 degrees).
 bool Relocator::stands_alone(const RelocationQuery& query, const RelocationOptions& options) const {
   const BeamShares& shares = result_.shares;
   const double unexplained =
       options.sure_evidence_ratio - result_.poses.front().quality.evidence_ratio;
+  const int lines_short = std::max(0, options.enough_lines - result_.lines);
   const double asked =
-      options.sure_gap + options.sure_gap_per_through * (shares.through + shares.unmapped) +
+      options.sure_gap + options.sure_gap_per_line * lines_short +
+      options.sure_gap_per_through * (shares.through + shares.unmapped) +
       options.sure_gap_per_missing * shares.missing +
       options.sure_gap_per_error * error_ratio(result_.map_error, query.map_error) +
       options.sure_gap_per_evidence * std::max(0.0, unexplained);

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "adit/extraction/extraction.hpp"
 #include "adit/map/line_map.hpp"
 #include "adit/refinement/refinement.hpp"
 #include "adit/relocation/options.hpp"
@@ -35,6 +36,7 @@ struct RelocationResult {
   /// far as that counts (`hopeless_gap`).
   double gap = 0.0;
   BeamShares shares;           ///< at the first pose
+  int lines = 0;               ///< of the scan, long enough to count (`line_m`)
   MapError map_error;          ///< how much the plan errs by this scan; no more than stated
   bool is_cut_off = false;     ///< more explain the scan than were fitted or are listed
   double share_of_news = 1.0;  ///< what counts of differences of the log likelihoods
@@ -89,6 +91,7 @@ class Relocator {
                  const RelocationOptions& options);
   void weigh(const RelocationOptions& options);
   double gap_to_others(const RelocationOptions& options) const;
+  void count_lines(const RelocationQuery& query, const RelocationOptions& options);
   void examine_best(const RelocationQuery& query, const LikelihoodOptions& likelihood);
   bool stands_alone(const RelocationQuery& query, const RelocationOptions& options) const;
   Status verdict(const RelocationQuery& query, const RelocationOptions& options,
@@ -99,6 +102,7 @@ class Relocator {
   PlaceSearch search_;
   ScanLikelihood likelihood_;
   ScanLikelihood all_beams_;
+  Extractor extractor_;
   Refiner refiner_;
   RefinementOptions refinement_;
   RefinementOptions coarse_refinement_;  // of the first fits, with some of the beams
