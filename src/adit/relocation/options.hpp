@@ -156,10 +156,11 @@ struct RelocationOptions {
   double apart_m = 1.0;
   double apart_rad = radians(5.0);
   double second_look_gap = 24.0;
-  double sure_gap = 6.5;
+  double sure_gap = 5.0;
   double sure_gap_per_through = 150.0;
   double sure_gap_per_missing = 20.0;
-  double sure_gap_per_line = 4.0;
+  double sure_gap_per_behind = 50.0;
+  double sure_gap_per_line = 6.0;
   int enough_lines = 7;
   double line_m = 1.0;
   double sure_gap_per_error = 4.0;
@@ -261,6 +262,8 @@ struct RelocationOptions {
         "sure_gap_per_through", self.sure_gap_per_through,
         "... and by so much more per share of the returns that come from behind the map's walls or "
         "from where it has none ...");
+    field("sure_gap_per_behind", self.sure_gap_per_behind,
+          "... per share of them that the fit takes for such, near edges as well ...");
     field("sure_gap_per_missing", self.sure_gap_per_missing,
           "... per share of the beams that should have met a wall and brought no return ...");
     field("sure_gap_per_line", self.sure_gap_per_line, "... per line that the scan has fewer ...");

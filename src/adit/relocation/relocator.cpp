@@ -330,12 +330,13 @@ void Relocator::examine_best(const RelocationQuery& query, const LikelihoodOptio
 /// with scans of another mine, of 180 to 360 degrees).
 bool Relocator::stands_alone(const RelocationQuery& query, const RelocationOptions& options) const {
   const BeamShares& shares = result_.shares;
-  const double unexplained =
-      options.sure_evidence_ratio - result_.poses.front().quality.evidence_ratio;
+  const FitQuality& quality = result_.poses.front().quality;
+  const double unexplained = options.sure_evidence_ratio - quality.evidence_ratio;
   const int lines_short = std::max(0, options.enough_lines - result_.lines);
   const double asked =
       options.sure_gap + options.sure_gap_per_line * lines_short +
       options.sure_gap_per_through * (shares.through + shares.unmapped) +
+      options.sure_gap_per_behind * quality.behind_ratio +
       options.sure_gap_per_missing * shares.missing +
       options.sure_gap_per_error * error_ratio(result_.map_error, query.map_error) +
       options.sure_gap_per_evidence * std::max(0.0, unexplained);
