@@ -68,6 +68,15 @@ double turn_in_sight(const LaserScan& scan, const ScannerModel& scanner) {
   return static_cast<double>(std::count(seen.begin(), seen.end(), true)) / kSectors;
 }
 
+/// How much longer a lead chance makes than in a mine of as many places as where that was measured:
+/// the more there are, the more resemble a scan.
+double lead_of_size(const PlaceIndex& index) {
+  constexpr double kMeasuredPlaces = 1.3e5;
+  constexpr double kPerFold = 2.5;  // a lead that is longer by this is e times rarer
+  const auto places = static_cast<double>(std::max(index.size(), index.corners().size()));
+  return kPerFold * std::log(std::max(1.0, places) / kMeasuredPlaces);
+}
+
 bool is_near(const Pose2& a, const Pose2& b, double metres, double radians) {
   const Vector3d apart = difference(a, b);
   return apart.head<2>().norm() <= metres && std::abs(apart.z()) <= radians;
@@ -334,7 +343,7 @@ bool Relocator::stands_alone(const RelocationQuery& query, const RelocationOptio
   const double unexplained = options.sure_evidence_ratio - quality.evidence_ratio;
   const int lines_short = std::max(0, options.enough_lines - result_.lines);
   const double asked =
-      options.sure_gap + options.sure_gap_per_line * lines_short +
+      options.sure_gap + lead_of_size(index_) + options.sure_gap_per_line * lines_short +
       options.sure_gap_per_through * (shares.through + shares.unmapped) +
       options.sure_gap_per_behind * quality.behind_ratio +
       options.sure_gap_per_missing * shares.missing +

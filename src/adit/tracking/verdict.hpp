@@ -37,6 +37,14 @@ struct StatusOptions {
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
+    visit_trust(self, field);
+    visit_rivals(self, field);
+    visit_sudden(self, field);
+  }
+
+ private:
+  template <class Self, class Field>
+  static void visit_trust(Self& self, Field& field) {
     field("least_evidence_ratio", self.least_evidence_ratio,
           "a scan of which the map explains less than this share does not fit the pose: lost");
     field("evidence_per_behind", self.evidence_per_behind,
@@ -67,6 +75,10 @@ struct StatusOptions {
     field("degraded_sigma_m", self.degraded_sigma_m,
           "a direction that the scan shows less well than this comes from dead reckoning (m)");
     field("degraded_sigma_rad", self.degraded_sigma_rad, "the same for the heading (rad)");
+  }
+
+  template <class Self, class Field>
+  static void visit_rivals(Self& self, Field& field) {
     field("ambiguous_gain", self.ambiguous_gain,
           "another pose that explains the scan as well but for this (log of the likelihoods' "
           "ratio) makes it ambiguous");
@@ -84,6 +96,10 @@ struct StatusOptions {
     field("jump_chi_square", self.jump_chi_square,
           "a scan farther than this from dead reckoning, far beyond chance, says that the vehicle "
           "is elsewhere: ambiguous until the next");
+  }
+
+  template <class Self, class Field>
+  static void visit_sudden(Self& self, Field& field) {
     field("sudden_evidence_ratio", self.sudden_evidence_ratio,
           "a scan that is explained less well than the last few by this ...");
     field("sudden_behind_ratio", self.sudden_behind_ratio,
