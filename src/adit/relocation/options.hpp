@@ -149,7 +149,7 @@ struct RelocationOptions {
   double merge_m = 0.5;
   double merge_rad = radians(3.0);
   double unfitted_gap = 50.0;
-  double hopeless_gap = 60.0;
+  double hopeless_gap = 200.0;
   double least_map_ratio = 0.1;
   double least_weight = 1e-4;
   double rival_weight = 0.02;
