@@ -237,6 +237,7 @@ TEST(Relocator, WhatSpeaksForChanceAsksForALongerLead) {
   EXPECT_EQ(verdict(strict), Status::ambiguous);
   strict = lenient;
   strict.sure_evidence_ratio = 2.0;  // more than any scan can explain
+  strict.sure_gap_per_evidence = 1000.0;
   EXPECT_EQ(verdict(strict), Status::ambiguous);
 }
 
