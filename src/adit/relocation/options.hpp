@@ -228,10 +228,10 @@ struct RelocationOptions {
     field("refined", self.refined, "and so many of those with all points");
     field("listed", self.listed, "no more poses than this are given as answers");
     field("start_m", self.start_m, "how far off a pose from the search is, one sigma (m)");
+    field("doubt_rad", self.doubt_rad, "the same for its heading (rad)");
     field("same_place_m", self.same_place_m,
           "a fit with some of the beams works out what the map shows anew after steps of so much "
           "(m)");
-    field("doubt_rad", self.doubt_rad, "the same for its heading (rad)");
     field("basin_m", self.basin_m,
           "what the scan leaves open is no wider than this, one sigma (m)");
     field("basin_rad", self.basin_rad, "the same for the heading (rad)");
