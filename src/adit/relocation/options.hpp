@@ -113,13 +113,13 @@ struct CornerSearchOptions {
 
 /// How a scan is searched for in a plan, and when the answer may be trusted.
 struct RelocationOptions {
-  double shorter_cap = 10.0;
+  double shorter_cap = 5.0;
   double longer_cap = 14.0;
   int first_bins = 16;
-  double rated_share = 0.15;
+  double rated_share = 0.1;
   int fewest_rated = 8000;
-  double compared_share = 0.02;
-  int compared = 4000;
+  double compared_share = 0.01;
+  int compared = 2500;
   double moved_share = 0.01;
   int moved = 1500;
   double moved_again_share = 0.002;
@@ -136,17 +136,17 @@ struct RelocationOptions {
   int fewest_candidates = 30;
   int candidates = 250;
   double agreement_per_step = 0.07;
-  double score_slack = 0.15;
+  double score_slack = 0.1;
   int rated_again = 100;
-  int fitted_again = 32;
-  int refined = 16;
+  int fitted_again = 40;
+  int refined = 20;
   int listed = 20;
   double doubt_rad = 0.015;
   double start_m = 0.2;
   double same_place_m = 0.15;
   double basin_m = 1.0;
   double basin_rad = 0.1;
-  double merge_m = 0.5;
+  double merge_m = 0.8;
   double merge_rad = radians(3.0);
   double unfitted_gap = 50.0;
   double hopeless_gap = 200.0;

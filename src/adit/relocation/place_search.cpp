@@ -14,8 +14,8 @@ bool scores_more(const PlaceMatch& a, const PlaceMatch& b) {
 }
 
 // Matches that were moved to within this of each other are one (m, rad).
-constexpr double kSameMetres = 0.25;
-constexpr double kSameRadians = radians(2.0);
+constexpr double kSameMetres = 0.5;
+constexpr double kSameRadians = radians(3.0);
 
 }  // namespace
 

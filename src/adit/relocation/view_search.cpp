@@ -98,19 +98,23 @@ ADIT_WIDE void compare_all(const RangeBands& bands, const ScanCodes& scan, Caps 
 
 using BlockCosts = std::array<std::uint8_t, PlaceIndex::kBlock>;
 
-/// What a scan's sorted ranges say against the places of a block.
+/// What a scan's sorted ranges say against the places of a block. What stands in the way makes
+/// ranges shorter, nothing makes them longer: none of the scan's may be longer than the place's of
+/// its rank; shorter ones only as many as things may hide.
 ADIT_WIDE void rate_block(const PlaceIndex::SortedRanges& block,
                           std::span<const std::uint8_t> sorted, std::uint8_t in_sight,
                           BlockCosts& costs) {
   constexpr std::size_t kStep = kRangeBins / PlaceIndex::kRanks;
-  // What stands in the way makes ranges shorter, nothing makes them longer. Sixteen times both fit
-  // a byte.
-  constexpr std::uint8_t kLongerCap = 10;
-  constexpr std::uint8_t kShorterCap = 5;
+  constexpr double kMostHidden = 0.3;  // of the scan
+  // Sixteen times both fit a byte.
+  constexpr std::uint8_t kLongerCap = 8;
+  constexpr std::uint8_t kShorterCap = 7;
+  const auto hidden = static_cast<std::size_t>(kMostHidden * static_cast<double>(sorted.size()));
   costs.fill(0);
   for (std::size_t rank = 0; rank * kStep < sorted.size(); ++rank) {
     const std::uint8_t longest = sorted[sorted.size() - 1 - rank * kStep];
-    const std::uint8_t shortest = sorted[rank * kStep];
+    const std::size_t beyond = rank * kStep + hidden;
+    const std::uint8_t shortest = beyond < sorted.size() ? sorted[beyond] : in_sight;
     const std::uint8_t* __restrict far = block.longest[rank].data();
     const std::uint8_t* __restrict near = block.shortest[rank].data();
     for (std::size_t i = 0; i < PlaceIndex::kBlock; ++i) {
