@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "adit/relocation/wide_vectors.hpp"
+
 namespace adit {
 namespace {
 
@@ -20,33 +22,119 @@ constexpr float kStartRadians = 0.06F;
 // A return is behind a wall from so far on (m).
 constexpr float kBehind = 0.6F;
 
-struct Met {
-  float off = 0.0F;  // from the wall (m)
-  float normal_x = 0.0F;
-  float normal_y = 0.0F;
-  bool is_met = false;
+constexpr std::size_t kLanes = QuickFit::kLanes;
+
+using Lanes = QuickFit::Lanes;
+
+/// The pose at which returns are placed, relative to the field's origin.
+using Placed = QuickFit::Placed;
+
+/// The walls nearest to some returns, of each one the parts of a `WallField::Line`.
+struct Walls {
+  Lanes x;
+  Lanes y;
+  Lanes along_x;
+  Lanes along_y;
+  Lanes length;
 };
 
-inline Met meet(const WallField::Line& line, float x, float y) {
-  const float dx = x - line.x;
-  const float dy = y - line.y;
-  const float along = dx * line.along_x + dy * line.along_y;
-  const bool is_on_it =
-      along >= -WallField::kBeyondEnd && along <= line.length + WallField::kBeyondEnd;
-  if (!is_on_it) return {};
-  return {dy * line.along_x - dx * line.along_y, -line.along_y, line.along_x, true};
+/// Some returns relative to the scanner, in map axes, and how far they are from their walls.
+struct Offs {
+  Lanes x;
+  Lanes y;
+  Lanes off;     // along the normal (m)
+  Lanes weight;  // from one at the wall to none far from it and beyond its ends
+  Walls walls;
+};
+
+/// Looks up all walls before it measures: the memory answers many questions at once.
+inline void meet(const WallField& field, const QuickFit::Returns& returns, const Placed& at,
+                 float per_variance, Offs& out) {
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    out.x[i] = at.cosine * returns.x[i] - at.sine * returns.y[i];
+    out.y[i] = at.sine * returns.x[i] + at.cosine * returns.y[i];
+  }
+  Walls& walls = out.walls;
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const auto& line = field.line(field.nearest(at.x + out.x[i], at.y + out.y[i]));
+    walls.x[i] = line.x;
+    walls.y[i] = line.y;
+    walls.along_x[i] = line.along_x;
+    walls.along_y[i] = line.along_y;
+    walls.length[i] = line.length;
+  }
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const float dx = at.x + out.x[i] - walls.x[i];
+    const float dy = at.y + out.y[i] - walls.y[i];
+    const float along = dx * walls.along_x[i] + dy * walls.along_y[i];
+    const float beyond = along - walls.length[i];
+    const float farthest = beyond > -along ? beyond : -along;
+    const float off = dy * walls.along_x[i] - dx * walls.along_y[i];
+    const float is_met = farthest > WallField::kBeyondEnd ? 0.0F : 1.0F;
+    const float kernel = 1.0F / (1.0F + off * off * per_variance);
+    out.off[i] = off;
+    out.weight[i] = is_met * returns.counts[i] * kernel * kernel;
+  }
 }
 
-/// Falls from one at the wall to none far from it.
-inline float weight_of(float off, float sigma) {
-  const float kernel = 1.0F / (1.0F + off * off / (sigma * sigma));
-  return kernel * kernel;
+/// Weighted sums for a step, of each lane.
+struct Sums {
+  Lanes xx{}, xy{}, yy{}, xt{}, yt{}, tt{}, bx{}, by{}, bt{};
+
+  void add(const Offs& met) {
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const float nx = -met.walls.along_y[i];
+      const float ny = met.walls.along_x[i];
+      const float turn = ny * met.x[i] - nx * met.y[i];
+      const float wx = met.weight[i] * nx;
+      const float wy = met.weight[i] * ny;
+      const float wt = met.weight[i] * turn;
+      xx[i] += wx * nx;
+      xy[i] += wx * ny;
+      yy[i] += wy * ny;
+      xt[i] += wx * turn;
+      yt[i] += wy * turn;
+      tt[i] += wt * turn;
+      bx[i] -= wx * met.off[i];
+      by[i] -= wy * met.off[i];
+      bt[i] -= wt * met.off[i];
+    }
+  }
+};
+
+float sum_of(const Lanes& lanes) {
+  float sum = 0.0F;
+  for (const float lane : lanes) sum += lane;
+  return sum;
+}
+
+ADIT_WIDE Sums sums_at(const WallField& field, std::span<const QuickFit::Returns> returns,
+                       const Placed& at, float per_variance) {
+  Sums sums;
+  Offs met;
+  for (const QuickFit::Returns& some : returns) {
+    meet(field, some, at, per_variance, met);
+    sums.add(met);
+  }
+  return sums;
+}
+
+ADIT_WIDE float weight_at(const WallField& field, std::span<const QuickFit::Returns> returns,
+                          const Placed& at, float per_variance) {
+  Lanes weights{};
+  Offs met;
+  for (const QuickFit::Returns& some : returns) {
+    meet(field, some, at, per_variance, met);
+    for (std::size_t i = 0; i < kLanes; ++i) weights[i] += met.weight[i];
+  }
+  return sum_of(weights);
 }
 
 }  // namespace
 
 void QuickFit::set_scan(const LaserScan& scan, const ScannerModel& scanner, std::size_t beams) {
-  points_.clear();
+  returns_.clear();
+  count_ = 0;
   const double no_return = scanner.no_return_from(scan.max_range);
   const std::size_t count = scan.beams_of_one_turn();
   const std::size_t stride = std::max<std::size_t>(1, count / std::max<std::size_t>(1, beams));
@@ -54,7 +142,11 @@ void QuickFit::set_scan(const LaserScan& scan, const ScannerModel& scanner, std:
     const double range = scan.ranges[i];
     if (!(range > 0.0 && range >= scanner.min_range_m && range < no_return)) continue;
     const Vector2d point = range * unit_vector(scan.bearing(i));
-    points_.push_back({static_cast<float>(point.x()), static_cast<float>(point.y())});
+    const std::size_t lane = count_++ % kLanes;
+    if (lane == 0) returns_.emplace_back();
+    returns_.back().x[lane] = static_cast<float>(point.x());
+    returns_.back().y[lane] = static_cast<float>(point.y());
+    returns_.back().counts[lane] = 1.0F;
   }
 }
 
@@ -66,47 +158,33 @@ QuickFit::Result QuickFit::settle(const WallField& field, const Pose2& map_from_
   return fit(field, map_from_laser, kSettle);
 }
 
+/// A pose relative to the field's origin, moved by this (m, rad).
+static Placed placed(const WallField& field, const Pose2& pose, const Eigen::Vector3f& moved) {
+  const Vector2d start = pose.translation() - field.origin();
+  const Vector2d heading = unit_vector(pose.theta + static_cast<double>(moved.z()));
+  return {static_cast<float>(start.x()) + moved.x(), static_cast<float>(start.y()) + moved.y(),
+          static_cast<float>(heading.x()), static_cast<float>(heading.y())};
+}
+
 QuickFit::Result QuickFit::fit(const WallField& field, const Pose2& map_from_laser,
                                std::span<const float> sigmas) const {
-  const Vector2d start = map_from_laser.translation() - field.origin();
   Eigen::Vector3f moved = Eigen::Vector3f::Zero();
   const Eigen::Vector3f confidence(1.0F / (kStartMetres * kStartMetres),
                                    1.0F / (kStartMetres * kStartMetres),
                                    1.0F / (kStartRadians * kStartRadians));
   for (const float sigma : sigmas) {
-    const Vector2d heading = unit_vector(map_from_laser.theta + static_cast<double>(moved.z()));
-    const auto c = static_cast<float>(heading.x());
-    const auto s = static_cast<float>(heading.y());
-    const float x0 = static_cast<float>(start.x()) + moved.x();
-    const float y0 = static_cast<float>(start.y()) + moved.y();
-    float xx = 0, xy = 0, yy = 0, xt = 0, yt = 0, tt = 0, bx = 0, by = 0, bt = 0;
-    for (const Point& point : points_) {
-      const float rx = c * point.x - s * point.y;
-      const float ry = s * point.x + c * point.y;
-      const float x = x0 + rx;
-      const float y = y0 + ry;
-      const Met met = meet(field.line(field.nearest(x, y)), x, y);
-      if (!met.is_met) continue;
-      const float weight = weight_of(met.off, sigma);
-      const float turn = met.normal_y * rx - met.normal_x * ry;
-      const float wx = weight * met.normal_x;
-      const float wy = weight * met.normal_y;
-      xx += wx * met.normal_x;
-      xy += wx * met.normal_y;
-      yy += wy * met.normal_y;
-      xt += wx * turn;
-      yt += wy * turn;
-      tt += weight * turn * turn;
-      bx -= wx * met.off;
-      by -= wy * met.off;
-      bt -= weight * turn * met.off;
-    }
     const float variance = sigma * sigma;
+    const Sums sums =
+        sums_at(field, returns_, placed(field, map_from_laser, moved), 1.0F / variance);
+    const float xy = sum_of(sums.xy);
+    const float xt = sum_of(sums.xt);
+    const float yt = sum_of(sums.yt);
     Eigen::Matrix3f information;
-    information << xx, xy, xt, xy, yy, yt, xt, yt, tt;
+    information << sum_of(sums.xx), xy, xt, xy, sum_of(sums.yy), yt, xt, yt, sum_of(sums.tt);
     information.diagonal() += variance * confidence;
     const Eigen::Vector3f score =
-        Eigen::Vector3f(bx, by, bt) - variance * confidence.cwiseProduct(moved);
+        Eigen::Vector3f(sum_of(sums.bx), sum_of(sums.by), sum_of(sums.bt)) -
+        variance * confidence.cwiseProduct(moved);
     moved += information.ldlt().solve(score);
   }
   Result result;
@@ -119,50 +197,26 @@ QuickFit::Result QuickFit::fit(const WallField& field, const Pose2& map_from_las
 
 float QuickFit::agreement(const WallField& field, const Pose2& map_from_laser,
                           float sigma_m) const {
-  const Vector2d start = map_from_laser.translation() - field.origin();
-  const Vector2d heading = unit_vector(map_from_laser.theta);
-  return agreement(field,
-                   {static_cast<float>(start.x()), static_cast<float>(start.y()),
-                    static_cast<float>(heading.x()), static_cast<float>(heading.y())},
-                   sigma_m);
+  return agreement(field, placed(field, map_from_laser, Eigen::Vector3f::Zero()), sigma_m);
 }
 
-/// Looks up all walls before it measures: the memory answers many questions at once.
 float QuickFit::agreement(const WallField& field, const Placed& at, float sigma_m) const {
-  constexpr std::size_t kAtOnce = 32;
-  std::array<std::int32_t, kAtOnce> walls;
-  std::array<Point, kAtOnce> placed;
-  float sum = 0.0F;
-  for (std::size_t first = 0; first < points_.size(); first += kAtOnce) {
-    const std::size_t count = std::min(kAtOnce, points_.size() - first);
-    for (std::size_t i = 0; i < count; ++i) {
-      const Point& point = points_[first + i];
-      placed[i] = {at.x + at.cosine * point.x - at.sine * point.y,
-                   at.y + at.sine * point.x + at.cosine * point.y};
-      walls[i] = field.nearest(placed[i].x, placed[i].y);
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      const Met met = meet(field.line(walls[i]), placed[i].x, placed[i].y);
-      sum += met.is_met ? weight_of(met.off, sigma_m) : 0.0F;
-    }
-  }
-  return points_.empty() ? 0.0F : sum / static_cast<float>(points_.size());
+  if (count_ == 0) return 0.0F;
+  return weight_at(field, returns_, at, 1.0F / (sigma_m * sigma_m)) / static_cast<float>(count_);
 }
 
 float QuickFit::through(const WallField& field, const Pose2& map_from_laser) const {
-  const Vector2d start = map_from_laser.translation() - field.origin();
-  const Vector2d heading = unit_vector(map_from_laser.theta);
-  const auto c = static_cast<float>(heading.x());
-  const auto s = static_cast<float>(heading.y());
-  const auto x0 = static_cast<float>(start.x());
-  const auto y0 = static_cast<float>(start.y());
+  if (count_ == 0) return 0.0F;
+  const Placed at = placed(field, map_from_laser, Eigen::Vector3f::Zero());
   int count = 0;
-  for (const Point& point : points_) {
-    const float x = x0 + c * point.x - s * point.y;
-    const float y = y0 + s * point.x + c * point.y;
-    count += field.is_between(x0, y0, x, y, kBehind);
+  for (std::size_t i = 0; i < count_; ++i) {
+    const float px = returns_[i / kLanes].x[i % kLanes];
+    const float py = returns_[i / kLanes].y[i % kLanes];
+    const float x = at.x + at.cosine * px - at.sine * py;
+    const float y = at.y + at.sine * px + at.cosine * py;
+    count += field.is_between(at.x, at.y, x, y, kBehind);
   }
-  return points_.empty() ? 0.0F : static_cast<float>(count) / static_cast<float>(points_.size());
+  return static_cast<float>(count) / static_cast<float>(count_);
 }
 
 }  // namespace adit

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -44,16 +46,23 @@ class QuickFit {
   };
   float agreement(const WallField& field, const Placed& at, float sigma_m) const;
 
- private:
-  struct Point {
-    float x = 0.0F;  // laser axes (m)
-    float y = 0.0F;
+  /// Some returns (laser axes, m), in lanes that are worked on side by side: twice as many as the
+  /// widest vectors hold, for compilers unroll shorter loops before they make vectors of them.
+  static constexpr std::size_t kLanes = 16;
+  using Lanes = std::array<float, kLanes>;
+  struct Returns {
+    Lanes x{};
+    Lanes y{};
+    Lanes counts{};  ///< one for a return, none for what fills the last lanes
   };
 
+ private:
   /// What is near to where: returns must lie so near to a wall to count (one sigma, m).
   Result fit(const WallField& field, const Pose2& map_from_laser,
              std::span<const float> sigmas) const;
-  std::vector<Point> points_;
+
+  std::vector<Returns> returns_;
+  std::size_t count_ = 0;
 };
 
 }  // namespace adit

@@ -5,14 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-// Where the linker can choose, the loops over bytes exist for machines with wider vectors as well;
-// integers throughout, so that all give the same.
-#if defined(__x86_64__) && defined(__GLIBC__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
-#define ADIT_WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define ADIT_WIDE
-#endif
+#include "adit/relocation/wide_vectors.hpp"
 
 namespace adit {
 namespace {
