@@ -155,17 +155,16 @@ struct RelocationOptions {
   double rival_weight = 0.02;
   double apart_m = 1.0;
   double apart_rad = radians(5.0);
-  double second_look_gap = 24.0;
-  double sure_gap = 5.0;
-  double sure_gap_per_through = 150.0;
+  double second_look_gap = 40.0;
+  double sure_gap = 1.0;
+  double sure_gap_per_through = 100.0;
   double sure_gap_per_missing = 20.0;
-  double sure_gap_per_behind = 50.0;
-  double sure_gap_per_line = 6.0;
+  double sure_gap_per_behind = 60.0;
+  double sure_gap_per_line = 1.0;
   int enough_lines = 7;
   double line_m = 1.0;
-  double sure_gap_per_error = 4.0;
-  double sure_gap_per_evidence = 100.0;
-  double sure_evidence_ratio = 0.75;
+  double sure_gap_per_error = 6.0;
+  double sure_gap_per_evidence = 40.0;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -252,8 +251,8 @@ struct RelocationOptions {
     field("apart_m", self.apart_m, "another pose is one farther than this (m) ...");
     field("apart_rad", self.apart_rad, "... or turned by more than this (rad)");
     field("second_look_gap", self.second_look_gap,
-          "a pose that others come nearer to than this (log) is trusted only after a second look "
-          "that fits more of them");
+          "after the first look a pose is sure only where no other comes nearer to it than this "
+          "(log); else a second one at twice as many places decides");
     field("sure_gap", self.sure_gap,
           "a pose is sure only where every other one is less likely by this (log), for a scan that "
           "sees all around; one that sees part of a turn agrees with more places by chance, and is "
@@ -274,21 +273,25 @@ struct RelocationOptions {
           "... where the plan errs as much as stated, for a larger error lets more poses agree by "
           "chance ...");
     field("sure_gap_per_evidence", self.sure_gap_per_evidence,
-          "... and per share by which less is explained, of what a scan of nothing but the map's "
-          "walls would, than ...");
-    field("sure_evidence_ratio", self.sure_evidence_ratio, "... this share");
+          "... and per share by which less is explained than of a scan of nothing but the map's "
+          "walls");
   }
 };
 
-/// With more of everything that thins out the fits: for a second look.
-inline RelocationOptions thorough(RelocationOptions options) {
-  options.fewest_candidates *= 2;
-  options.candidates *= 2;
-  options.score_slack *= 2.0;
+/// With twice as many places and more of all that thins out their fits: for a second look.
+inline RelocationOptions widened(RelocationOptions options) {
+  for (double* share : {&options.rated_share, &options.compared_share, &options.moved_share,
+                        &options.moved_again_share, &options.corners_moved_share,
+                        &options.corners_moved_again_share, &options.score_slack}) {
+    *share *= 2.0;
+  }
+  for (int* count : {&options.fewest_rated, &options.compared, &options.moved, &options.moved_again,
+                     &options.corners_moved, &options.corners_moved_again,
+                     &options.fewest_candidates, &options.candidates}) {
+    *count *= 2;
+  }
+  for (int* count : {&options.rated_again, &options.fitted_again, &options.refined}) *count *= 3;
   options.unfitted_gap *= 3.0;
-  options.rated_again *= 3;
-  options.fitted_again *= 3;
-  options.refined *= 3;
   return options;
 }
 

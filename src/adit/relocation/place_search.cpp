@@ -33,7 +33,8 @@ std::span<const PlaceMatch> PlaceSearch::find(const PlaceIndex& index, const Las
            part_of(corners, options.corners_moved_again_share, options.corners_moved_again));
   quick_fit_.set_scan(scan, scanner, count_of(options.quick_beams));
   settle(index.walls(), options);
-  return choose(options);
+  choose(options);
+  return found_;
 }
 
 /// Moves poses towards the walls and takes the best of them, so many.
@@ -54,7 +55,7 @@ void PlaceSearch::approach(const WallField& walls, std::span<const PlaceMatch> m
 }
 
 /// Moves what was taken all the way. What returns say from behind walls weighs against the rest; it
-/// is asked only of those that may be chosen, now or at a second look.
+/// is asked only of those that may be chosen.
 void PlaceSearch::settle(const WallField& walls, const RelocationOptions& options) {
   for (PlaceMatch& match : matches_) {
     const QuickFit::Result moved = quick_fit_.settle(walls, match.map_from_laser);
@@ -62,10 +63,9 @@ void PlaceSearch::settle(const WallField& walls, const RelocationOptions& option
     match.agreement = match.score = moved.agreement;
   }
   std::sort(matches_.begin(), matches_.end(), scores_more);
-  const RelocationOptions widest = thorough(options);
   const auto per_through = static_cast<float>(options.agreement_per_through);
-  const auto slack = static_cast<float>(widest.score_slack);
-  const std::size_t fewest = count_of(widest.fewest_candidates);
+  const auto slack = static_cast<float>(options.score_slack);
+  const std::size_t fewest = count_of(options.fewest_candidates);
   float best = -1.0F;
   std::size_t rated = 0;
   for (; rated < matches_.size(); ++rated) {
@@ -79,7 +79,7 @@ void PlaceSearch::settle(const WallField& walls, const RelocationOptions& option
 
 /// Those no farther behind the first than by the slack. Of those that are one, the pose that agrees
 /// most with the walls stands for them.
-std::span<const PlaceMatch> PlaceSearch::choose(const RelocationOptions& options) {
+void PlaceSearch::choose(const RelocationOptions& options) {
   const std::size_t fewest = count_of(options.fewest_candidates);
   const std::size_t most = count_of(options.candidates);
   const auto slack = static_cast<float>(options.score_slack);
@@ -99,7 +99,6 @@ std::span<const PlaceMatch> PlaceSearch::choose(const RelocationOptions& options
     if (found_.size() >= fewest && match.score < found_.front().score - slack) break;
     found_.push_back(match);
   }
-  return found_;
 }
 
 }  // namespace adit

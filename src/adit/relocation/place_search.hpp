@@ -20,12 +20,10 @@ class PlaceSearch {
                                    const std::optional<SearchArea>& area,
                                    const RelocationOptions& options);
 
-  /// The best of the last search by other limits of how many.
-  std::span<const PlaceMatch> choose(const RelocationOptions& options);
-
  private:
   void approach(const WallField& walls, std::span<const PlaceMatch> matches, std::size_t most);
   void settle(const WallField& walls, const RelocationOptions& options);
+  void choose(const RelocationOptions& options);
 
   ViewSearch view_search_;
   CornerSearch corner_search_;

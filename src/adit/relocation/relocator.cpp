@@ -2,11 +2,10 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
-#include "adit/relocation/fit_quality.hpp"
+#include "adit/relocation/place_verdict.hpp"
 
 namespace adit {
 namespace {
@@ -49,39 +48,6 @@ MapError scaled(const MapError& error, double ratio) {
           ratio * error.distortion_ratio};
 }
 
-double error_ratio(const MapError& error, const MapError& stated) {
-  return stated.sigma_m() > 0.0 ? error.sigma_m() / stated.sigma_m() : 0.0;
-}
-
-/// The share of all bearings in which something came back.
-double turn_in_sight(const LaserScan& scan, const ScannerModel& scanner) {
-  constexpr std::size_t kSectors = 72;
-  std::array<bool, kSectors> seen{};
-  const double no_return = scanner.no_return_from(scan.max_range);
-  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
-    const double range = scan.ranges[i];
-    if (!(range > 0.0 && range >= scanner.min_range_m && range < no_return)) continue;
-    const double turns = scan.bearing(i) / kTwoPi;
-    const auto sector = static_cast<std::size_t>((turns - std::floor(turns)) * kSectors);
-    seen[std::min(sector, kSectors - 1)] = true;
-  }
-  return static_cast<double>(std::count(seen.begin(), seen.end(), true)) / kSectors;
-}
-
-/// How much longer a lead chance makes than in a mine of as many places as where that was measured:
-/// the more there are, the more resemble a scan.
-double lead_of_size(const PlaceIndex& index) {
-  constexpr double kMeasuredPlaces = 1.3e5;
-  constexpr double kPerFold = 2.5;  // a lead that is longer by this is e times rarer
-  const auto places = static_cast<double>(std::max(index.size(), index.corners().size()));
-  return kPerFold * std::log(std::max(1.0, places) / kMeasuredPlaces);
-}
-
-bool is_near(const Pose2& a, const Pose2& b, double metres, double radians) {
-  const Vector3d apart = difference(a, b);
-  return apart.head<2>().norm() <= metres && std::abs(apart.z()) <= radians;
-}
-
 /// The search's basin: how far a fit may be from where it began.
 Matrix3d basin(double metres, double radians) {
   return Vector3d(metres, metres, radians).cwiseAbs2().asDiagonal();
@@ -100,24 +66,20 @@ const RelocationResult& Relocator::locate(const RelocationQuery& query,
   likelihood_.set_walls(index_.walls());
   likelihood_.set_scan(query.scan, query.scanner, query.map_error, likelihood);
   count_lines(query, options);
-  const auto matches = search_.find(index_, query.scan, query.scanner, query.within, options);
-  result_.verdict = look(query, matches, options, likelihood, status);
+  look(query, options, likelihood);
+  const std::size_t places = std::max(index_.size(), index_.corners().size());
+  result_.verdict = judge_place(result_, query, places, options, status);
   const bool is_sure = result_.verdict == Status::ok || result_.verdict == Status::degraded;
-  if (is_sure && result_.gap < options.second_look_gap) {
-    const RelocationOptions more = thorough(options);
-    const Pose2 first = result_.poses.front().pose;
-    result_.verdict = look(query, search_.choose(more), more, likelihood, status);
-    const bool is_same = !result_.poses.empty() && is_near(first, result_.poses.front().pose,
-                                                           options.apart_m, options.apart_rad);
-    if (!is_same && result_.verdict != Status::lost) result_.verdict = Status::ambiguous;
-  }
+  if (is_sure && result_.gap >= options.second_look_gap) return result_;
+  look(query, widened(options), likelihood);
+  result_.verdict = judge_place(result_, query, places, options, status);
   return result_;
 }
 
-/// Fits and weighs poses of the laser.
-Status Relocator::look(const RelocationQuery& query, std::span<const PlaceMatch> matches,
-                       const RelocationOptions& options, const LikelihoodOptions& likelihood,
-                       const StatusOptions& status) {
+/// Searches, fits and weighs poses.
+void Relocator::look(const RelocationQuery& query, const RelocationOptions& options,
+                     const LikelihoodOptions& likelihood) {
+  const auto matches = search_.find(index_, query.scan, query.scanner, query.within, options);
   const Pose2 laser_from_vehicle = inverse(query.scan.vehicle_from_laser);
   hypotheses_.clear();
   for (const PlaceMatch& match : matches) {
@@ -132,7 +94,6 @@ Status Relocator::look(const RelocationQuery& query, std::span<const PlaceMatch>
   result_.gap = gap_to_others(options);
   weigh(options);
   examine_best(query, likelihood);
-  return verdict(query, options, status);
 }
 
 double Relocator::likelihood_at(const RelocationQuery& query, const Pose2& map_from_vehicle,
@@ -329,45 +290,6 @@ void Relocator::examine_best(const RelocationQuery& query, const LikelihoodOptio
   all_beams_.set_scan(query.scan, query.scanner, result_.map_error, more);
   const Pose2 laser = result_.poses.front().pose * query.scan.vehicle_from_laser;
   result_.shares = all_beams_.shares_at(map_, laser, kFittedDoubt);
-}
-
-/// Whether the best pose is the place, and not one that resembles it by chance. Of all places of a
-/// mine one will resemble any scan, the more so the less shape that has: it is little better than
-/// the next, sees through walls here and there, needs a plan that errs and explains part of the
-/// scan; together these weigh. How much better than the next one chance makes it falls off
-/// exponentially, and slower with the square of the part of a turn that the scan sees (measured
-/// with scans of another mine, of 180 to 360 degrees).
-bool Relocator::stands_alone(const RelocationQuery& query, const RelocationOptions& options) const {
-  const BeamShares& shares = result_.shares;
-  const FitQuality& quality = result_.poses.front().quality;
-  const double unexplained = options.sure_evidence_ratio - quality.evidence_ratio;
-  const int lines_short = std::max(0, options.enough_lines - result_.lines);
-  const double asked =
-      options.sure_gap + lead_of_size(index_) + options.sure_gap_per_line * lines_short +
-      options.sure_gap_per_through * (shares.through + shares.unmapped) +
-      options.sure_gap_per_behind * quality.behind_ratio +
-      options.sure_gap_per_missing * shares.missing +
-      options.sure_gap_per_error * error_ratio(result_.map_error, query.map_error) +
-      options.sure_gap_per_evidence * std::max(0.0, unexplained);
-  const double in_sight = turn_in_sight(query.scan, query.scanner);
-  return in_sight * in_sight * result_.gap >= asked;
-}
-
-Status Relocator::verdict(const RelocationQuery& query, const RelocationOptions& options,
-                          const StatusOptions& status) const {
-  if (result_.poses.empty()) return Status::lost;
-  const RankedPose& best = result_.poses.front();
-  if (best.quality.returns < status.fewest_returns || !explains(best.quality, status)) {
-    return Status::lost;
-  }
-  double rivals = 0.0;
-  for (const RankedPose& pose : result_.poses) {
-    // At one place, but turned by more than what would have become one: no less a rival.
-    if (!is_near(best.pose, pose.pose, options.apart_m, options.merge_rad)) rivals += pose.weight;
-  }
-  if (rivals > options.rival_weight) return Status::ambiguous;
-  if (!stands_alone(query, options)) return Status::ambiguous;
-  return open_direction(best.covariance, status) ? Status::degraded : Status::ok;
 }
 
 }  // namespace adit
