@@ -20,13 +20,11 @@ std::span<const PlaceMatch> CornerSearch::find(const PlaceIndex& index, const La
                                                const std::optional<SearchArea>& area,
                                                std::size_t most,
                                                const CornerSearchOptions& options) {
-  found_.clear();
   sense(scan, scanner, options);
   choose_corners(index.corners(), options);
   few_returns_.set_scan(scan, scanner, count_of(options.returns));
   rate(index, area, options);
-  take_best(index, most, options);
-  return found_;
+  return take(index, most, options);
 }
 
 /// The corners that walls of the scan make with each other, each with the space in which the
@@ -127,8 +125,9 @@ void CornerSearch::rate(const PlaceIndex& index, const std::optional<SearchArea>
 }
 
 /// The best rated, one of each cell: the corners of one place say the same.
-void CornerSearch::take_best(const PlaceIndex& index, std::size_t most,
-                             const CornerSearchOptions& options) {
+std::span<const PlaceMatch> CornerSearch::take(const PlaceIndex& index, std::size_t most,
+                                               const CornerSearchOptions& options) {
+  found_.clear();
   std::array<std::size_t, 257> counts{};  // of each rating, the highest first
   for (const std::uint8_t rating : ratings_) ++counts[256 - rating];
   std::size_t worst = 255;
@@ -156,6 +155,7 @@ void CornerSearch::take_best(const PlaceIndex& index, std::size_t most,
   for (const Ranked& ranked : ranked_) {
     found_.push_back({pose_of(ranked, index), 0, 0.0F, 0.0F});
   }
+  return found_;
 }
 
 /// Of the ranked pairs no more than so many, those first that come first.

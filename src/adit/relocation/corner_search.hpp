@@ -25,6 +25,10 @@ class CornerSearch {
                                    const std::optional<SearchArea>& area, std::size_t most,
                                    const CornerSearchOptions& options);
 
+  /// The same of the last search, but so many.
+  std::span<const PlaceMatch> take(const PlaceIndex& index, std::size_t most,
+                                   const CornerSearchOptions& options);
+
  private:
   /// A corner of the scan.
   struct Sensed {
@@ -51,7 +55,6 @@ class CornerSearch {
   void rate(const PlaceIndex& index, const std::optional<SearchArea>& area,
             const CornerSearchOptions& options);
   CornerIndex::Likeness likeness(const Sensed& sensed, const CornerSearchOptions& options) const;
-  void take_best(const PlaceIndex& index, std::size_t most, const CornerSearchOptions& options);
   void keep_one_of_each_cell(const PlaceIndex& index, std::size_t most,
                              const CornerSearchOptions& options);
   Pose2 pose_of(const Ranked& ranked, const PlaceIndex& index) const;

@@ -156,15 +156,15 @@ struct RelocationOptions {
   double apart_m = 1.0;
   double apart_rad = radians(5.0);
   double second_look_gap = 40.0;
-  double sure_gap = 1.0;
+  double sure_gap = 0.5;
   double sure_gap_per_through = 100.0;
   double sure_gap_per_missing = 20.0;
   double sure_gap_per_behind = 60.0;
   double sure_gap_per_line = 1.0;
   int enough_lines = 7;
   double line_m = 1.0;
-  double sure_gap_per_error = 6.0;
-  double sure_gap_per_evidence = 40.0;
+  double sure_gap_per_error = 8.0;
+  double sure_gap_per_evidence = 30.0;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -256,7 +256,7 @@ struct RelocationOptions {
     field("sure_gap", self.sure_gap,
           "a pose is sure only where every other one is less likely by this (log), for a scan that "
           "sees all around; one that sees part of a turn agrees with more places by chance, and is "
-          "asked for as much over the square of that part ...");
+          "asked for as much over that part to the power of 2.5 ...");
     field(
         "sure_gap_per_through", self.sure_gap_per_through,
         "... and by so much more per share of the returns that come from behind the map's walls or "
@@ -278,13 +278,10 @@ struct RelocationOptions {
   }
 };
 
-/// With twice as many places and more of all that thins out their fits: for a second look.
+/// With more of all that thins out the search, for a second look: twice as many places, but where
+/// a large plan has that many already.
 inline RelocationOptions widened(RelocationOptions options) {
-  for (double* share : {&options.rated_share, &options.compared_share, &options.moved_share,
-                        &options.moved_again_share, &options.corners_moved_share,
-                        &options.corners_moved_again_share, &options.score_slack}) {
-    *share *= 2.0;
-  }
+  options.score_slack *= 2.0;
   for (int* count : {&options.fewest_rated, &options.compared, &options.moved, &options.moved_again,
                      &options.corners_moved, &options.corners_moved_again,
                      &options.fewest_candidates, &options.candidates}) {

@@ -13,6 +13,10 @@ bool scores_more(const PlaceMatch& a, const PlaceMatch& b) {
   return std::tie(b.score, p.y, p.x, p.theta) < std::tie(a.score, q.y, q.x, q.theta);
 }
 
+std::size_t corners_moved(const PlaceIndex& index, const RelocationOptions& options) {
+  return part_of(index.corners().size(), options.corners_moved_share, options.corners_moved);
+}
+
 // Matches that were moved to within this of each other are one (m, rad).
 constexpr double kSameMetres = 0.5;
 constexpr double kSameRadians = radians(3.0);
@@ -23,14 +27,33 @@ std::span<const PlaceMatch> PlaceSearch::find(const PlaceIndex& index, const Las
                                               const ScannerModel& scanner,
                                               const std::optional<SearchArea>& area,
                                               const RelocationOptions& options) {
+  const auto views = view_search_.find(index, scan, scanner, area, options);
+  const auto corners = corner_search_.find(index, scan, scanner, area,
+                                           corners_moved(index, options), options.corners);
+  return move(index, scan, scanner, views, corners, options);
+}
+
+std::span<const PlaceMatch> PlaceSearch::find_again(const PlaceIndex& index, const LaserScan& scan,
+                                                    const ScannerModel& scanner,
+                                                    const std::optional<SearchArea>& area,
+                                                    const RelocationOptions& options) {
+  const auto views = view_search_.find(index, scan, scanner, area, options);
+  const auto corners = corner_search_.take(index, corners_moved(index, options), options.corners);
+  return move(index, scan, scanner, views, corners, options);
+}
+
+std::span<const PlaceMatch> PlaceSearch::move(const PlaceIndex& index, const LaserScan& scan,
+                                              const ScannerModel& scanner,
+                                              std::span<const PlaceMatch> views,
+                                              std::span<const PlaceMatch> corners,
+                                              const RelocationOptions& options) {
   matches_.clear();
   quick_fit_.set_scan(scan, scanner, count_of(options.first_beams));
-  approach(index.walls(), view_search_.find(index, scan, scanner, area, options),
+  approach(index.walls(), views,
            part_of(index.size(), options.moved_again_share, options.moved_again));
-  const std::size_t corners = index.corners().size();
-  const std::size_t most = part_of(corners, options.corners_moved_share, options.corners_moved);
-  approach(index.walls(), corner_search_.find(index, scan, scanner, area, most, options.corners),
-           part_of(corners, options.corners_moved_again_share, options.corners_moved_again));
+  approach(index.walls(), corners,
+           part_of(index.corners().size(), options.corners_moved_again_share,
+                   options.corners_moved_again));
   quick_fit_.set_scan(scan, scanner, count_of(options.quick_beams));
   settle(index.walls(), options);
   choose(options);

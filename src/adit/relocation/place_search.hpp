@@ -20,7 +20,17 @@ class PlaceSearch {
                                    const std::optional<SearchArea>& area,
                                    const RelocationOptions& options);
 
+  /// The same for the scan of the last search, by other limits of how many.
+  std::span<const PlaceMatch> find_again(const PlaceIndex& index, const LaserScan& scan,
+                                         const ScannerModel& scanner,
+                                         const std::optional<SearchArea>& area,
+                                         const RelocationOptions& options);
+
  private:
+  std::span<const PlaceMatch> move(const PlaceIndex& index, const LaserScan& scan,
+                                   const ScannerModel& scanner, std::span<const PlaceMatch> views,
+                                   std::span<const PlaceMatch> corners,
+                                   const RelocationOptions& options);
   void approach(const WallField& walls, std::span<const PlaceMatch> matches, std::size_t most);
   void settle(const WallField& walls, const RelocationOptions& options);
   void choose(const RelocationOptions& options);

@@ -7,6 +7,9 @@
 namespace adit {
 namespace {
 
+// The lead that chance makes shrinks with this power of the part of a turn that a scan sees.
+constexpr double kPerTurn = 2.5;
+
 /// How much longer a lead chance makes than in a mine of as many places as where that was measured:
 /// the more there are, the more resemble a scan.
 double lead_of_size(std::size_t places) {
@@ -73,9 +76,8 @@ Status judge_place(const RelocationResult& found, const RelocationQuery& query, 
     return Status::lost;
   }
   if (weight_of_rivals(found, options) > options.rival_weight) return Status::ambiguous;
-  const double in_sight = turn_in_sight(query.scan, query.scanner);
-  const bool stands_alone =
-      in_sight * in_sight * found.gap >= asked_lead(found, query, places, options);
+  const double whole_turn = std::pow(turn_in_sight(query.scan, query.scanner), kPerTurn);
+  const bool stands_alone = whole_turn * found.gap >= asked_lead(found, query, places, options);
   if (!stands_alone) return Status::ambiguous;
   return open_direction(best.covariance, status) ? Status::degraded : Status::ok;
 }

@@ -23,8 +23,8 @@ double turn_in_sight(const LaserScan& scan, const ScannerModel& scanner);
 /// Of all places of a mine one will resemble any scan: it is a little better than the next, sees
 /// through walls here and there, needs a plan that errs and explains part of the scan. Together
 /// these say how long a lead over the next one is asked. The lead that chance makes falls off
-/// exponentially, the slower the less of a turn the scan sees: with its square (measured with scans
-/// of other mines, of 180 to 360 degrees). `places` is how many were compared.
+/// exponentially, the slower the less of a turn the scan sees (measured with scans of other mines,
+/// of 180 to 360 degrees). `places` is how many were compared.
 Status judge_place(const RelocationResult& found, const RelocationQuery& query, std::size_t places,
                    const RelocationOptions& options, const StatusOptions& status);
 

@@ -66,20 +66,21 @@ const RelocationResult& Relocator::locate(const RelocationQuery& query,
   likelihood_.set_walls(index_.walls());
   likelihood_.set_scan(query.scan, query.scanner, query.map_error, likelihood);
   count_lines(query, options);
-  look(query, options, likelihood);
+  const auto& [scan, scanner, map_error, motion, within] = query;
+  look(query, search_.find(index_, scan, scanner, within, options), options, likelihood);
   const std::size_t places = std::max(index_.size(), index_.corners().size());
   result_.verdict = judge_place(result_, query, places, options, status);
   const bool is_sure = result_.verdict == Status::ok || result_.verdict == Status::degraded;
   if (is_sure && result_.gap >= options.second_look_gap) return result_;
-  look(query, widened(options), likelihood);
+  const RelocationOptions more = widened(options);
+  look(query, search_.find_again(index_, scan, scanner, within, more), more, likelihood);
   result_.verdict = judge_place(result_, query, places, options, status);
   return result_;
 }
 
-/// Searches, fits and weighs poses.
-void Relocator::look(const RelocationQuery& query, const RelocationOptions& options,
-                     const LikelihoodOptions& likelihood) {
-  const auto matches = search_.find(index_, query.scan, query.scanner, query.within, options);
+/// Fits and weighs poses of the laser.
+void Relocator::look(const RelocationQuery& query, std::span<const PlaceMatch> matches,
+                     const RelocationOptions& options, const LikelihoodOptions& likelihood) {
   const Pose2 laser_from_vehicle = inverse(query.scan.vehicle_from_laser);
   hypotheses_.clear();
   for (const PlaceMatch& match : matches) {

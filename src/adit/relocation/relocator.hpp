@@ -38,8 +38,8 @@ class Relocator {
     double log_likelihood = 0.0;
   };
 
-  void look(const RelocationQuery& query, const RelocationOptions& options,
-            const LikelihoodOptions& likelihood);
+  void look(const RelocationQuery& query, std::span<const PlaceMatch> matches,
+            const RelocationOptions& options, const LikelihoodOptions& likelihood);
   void fit_coarsely(const RelocationQuery& query, const RelocationOptions& options);
   void narrow_down(const RelocationQuery& query, const RelocationOptions& options);
   void fit_thinned(const RelocationQuery& query, const MapError& error,
