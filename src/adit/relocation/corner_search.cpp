@@ -106,45 +106,66 @@ static Pose2 in_map(const QuickFit::Placed& at, const Vector2d& origin) {
           std::atan2(static_cast<double>(at.sine), static_cast<double>(at.cosine))};
 }
 
+/// The lowest of the highest ratings, so many or a few more.
+static std::size_t lowest_of(const std::vector<std::uint8_t>& ratings, std::size_t most) {
+  std::array<std::size_t, 256> counts{};
+  for (const std::uint8_t rating : ratings) ++counts[rating];
+  std::size_t lowest = 255;
+  std::size_t sum = 0;
+  while (lowest > 0 && (sum += counts[lowest]) < most) --lowest;
+  return lowest;
+}
+
+/// Calls `each(sensed, number of the sector, sector)` for all pairs that are alike.
+template <class Each>
+void CornerSearch::for_each_pair(const CornerIndex& corners, const CornerSearchOptions& options,
+                                 const Each& each) const {
+  for (std::uint32_t s = 0; s < sensed_.size(); ++s) {
+    corners.visit(likeness(sensed_[s], options),
+                  [&](std::size_t first, std::span<const Sector> like) {
+                    for (std::size_t i = 0; i < like.size(); ++i) each(s, first + i, like[i]);
+                  });
+  }
+}
+
+/// All pairs roughly, and the best of them again.
 void CornerSearch::rate(const PlaceIndex& index, const std::optional<SearchArea>& area,
                         const CornerSearchOptions& options) {
   ratings_.clear();
   const WallField& walls = index.walls();
   const auto sigma = static_cast<float>(options.sigma_m);
-  for (const Sensed& sensed : sensed_) {
-    index.corners().visit(
-        likeness(sensed, options), [&](std::size_t, std::span<const Sector> like) {
-          for (const Sector& sector : like) {
-            const QuickFit::Placed at = place(sensed, sector);
-            const bool is_asked = !area || area->holds(in_map(at, walls.origin()).translation());
-            const float agreement = is_asked ? few_returns_.agreement(walls, at, sigma) : 0.0F;
-            ratings_.push_back(static_cast<std::uint8_t>(kFullRating * agreement));
-          }
-        });
-  }
+  const auto weights = QuickFit::off_weights(sigma);
+  for_each_pair(index.corners(), options, [&](std::uint32_t s, std::size_t, const Sector& sector) {
+    const QuickFit::Placed at = place(sensed_[s], sector);
+    const bool is_asked = !area || area->holds(in_map(at, walls.origin()).translation());
+    const float agreement = is_asked ? few_returns_.rough_agreement(walls, at, weights) : 0.0F;
+    ratings_.push_back(static_cast<std::uint8_t>(kFullRating * agreement));
+  });
+  const std::size_t lowest = std::max<std::size_t>(
+      1, lowest_of(ratings_, part_of(ratings_.size(), options.rated_share, options.fewest_rated)));
+  std::size_t pair = 0;
+  for_each_pair(index.corners(), options, [&](std::uint32_t s, std::size_t, const Sector& sector) {
+    std::uint8_t& rating = ratings_[pair++];
+    const bool is_asked = rating >= lowest;
+    rating = 0;
+    if (!is_asked) return;
+    const QuickFit::Placed at = place(sensed_[s], sector);
+    const float agreement = few_returns_.agreement(walls, at, sigma);
+    rating = static_cast<std::uint8_t>(kFullRating * agreement);
+  });
 }
 
 /// The best rated, one of each cell: the corners of one place say the same.
 std::span<const PlaceMatch> CornerSearch::take(const PlaceIndex& index, std::size_t most,
                                                const CornerSearchOptions& options) {
   found_.clear();
-  std::array<std::size_t, 257> counts{};  // of each rating, the highest first
-  for (const std::uint8_t rating : ratings_) ++counts[256 - rating];
-  std::size_t worst = 255;
-  std::size_t asked = 0;
-  while (worst > 0 && (asked += counts[256 - worst]) < 8 * most) --worst;
+  const std::size_t worst = std::max<std::size_t>(1, lowest_of(ratings_, 8 * most));
   ranked_.clear();
   std::size_t pair = 0;
-  for (std::uint32_t s = 0; s < sensed_.size(); ++s) {
-    index.corners().visit(likeness(sensed_[s], options),
-                          [&](std::size_t first, std::span<const Sector> like) {
-                            for (std::size_t i = first; i < first + like.size(); ++i, ++pair) {
-                              const std::uint8_t rating = ratings_[pair];
-                              if (rating < std::max<std::size_t>(1, worst)) continue;
-                              ranked_.push_back({rating, s, static_cast<std::uint32_t>(i)});
-                            }
-                          });
-  }
+  for_each_pair(index.corners(), options, [&](std::uint32_t s, std::size_t i, const Sector&) {
+    const std::uint8_t rating = ratings_[pair++];
+    if (rating >= worst) ranked_.push_back({rating, s, static_cast<std::uint32_t>(i)});
+  });
   std::stable_sort(ranked_.begin(), ranked_.end(),
                    [](const Ranked& a, const Ranked& b) { return a.rating > b.rating; });
   keep_one_of_each_cell(index, most, options);

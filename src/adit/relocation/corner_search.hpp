@@ -52,6 +52,9 @@ class CornerSearch {
   void sense(const LaserScan& scan, const ScannerModel& scanner,
              const CornerSearchOptions& options);
   void choose_corners(const CornerIndex& corners, const CornerSearchOptions& options);
+  template <class Each>
+  void for_each_pair(const CornerIndex& corners, const CornerSearchOptions& options,
+                     const Each& each) const;
   void rate(const PlaceIndex& index, const std::optional<SearchArea>& area,
             const CornerSearchOptions& options);
   CornerIndex::Likeness likeness(const Sensed& sensed, const CornerSearchOptions& options) const;

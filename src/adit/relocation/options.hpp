@@ -86,6 +86,8 @@ struct CornerSearchOptions {
   int most = 12;
   double most_pairs = 2.0e6;
   int returns = 16;
+  double rated_share = 0.15;
+  int fewest_rated = 20000;
   double sigma_m = 0.4;
   double cell_m = 0.6;
   double cell_rad = 0.1;
@@ -104,8 +106,11 @@ struct CornerSearchOptions {
           "and no more than so many, those of the longest walls first ...");
     field("corner_most_pairs", self.most_pairs,
           "... while no more pairs of corners than this come of it");
-    field("corner_returns", self.returns, "so many returns rate each pair");
-    field("corner_sigma_m", self.sigma_m, "by how near they are to walls, one sigma (m)");
+    field("corner_returns", self.returns, "so many returns rate each pair ...");
+    field("corner_sigma_m", self.sigma_m,
+          "... by how near they are to walls, one sigma (m), first roughly ...");
+    field("corner_rated_share", self.rated_share, "... and this share of all pairs again");
+    field("corner_fewest_rated", self.fewest_rated, "but not fewer than this");
     field("corner_cell_m", self.cell_m, "poses in one square of this side are one (m) ...");
     field("corner_cell_rad", self.cell_rad, "... if in one sector of this width (rad)");
   }

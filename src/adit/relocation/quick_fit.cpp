@@ -47,6 +47,12 @@ struct Offs {
   Walls walls;
 };
 
+/// What a return counts that is so many sigma, squared, off its wall: one there, none far from it.
+inline float weight_of(float squared) {
+  const float kernel = 1.0F / (1.0F + squared);
+  return kernel * kernel;
+}
+
 /// Looks up all walls before it measures: the memory answers many questions at once.
 inline void meet(const WallField& field, const QuickFit::Returns& returns, const Placed& at,
                  float per_variance, Offs& out) {
@@ -71,9 +77,8 @@ inline void meet(const WallField& field, const QuickFit::Returns& returns, const
     const float farthest = beyond > -along ? beyond : -along;
     const float off = dy * walls.along_x[i] - dx * walls.along_y[i];
     const float is_met = farthest > WallField::kBeyondEnd ? 0.0F : 1.0F;
-    const float kernel = 1.0F / (1.0F + off * off * per_variance);
     out.off[i] = off;
-    out.weight[i] = is_met * returns.counts[i] * kernel * kernel;
+    out.weight[i] = is_met * returns.counts[i] * weight_of(off * off * per_variance);
   }
 }
 
@@ -191,18 +196,37 @@ QuickFit::Result QuickFit::fit(const WallField& field, const Pose2& map_from_las
   result.map_from_laser = {map_from_laser.x + static_cast<double>(moved.x()),
                            map_from_laser.y + static_cast<double>(moved.y()),
                            wrap_angle(map_from_laser.theta + static_cast<double>(moved.z()))};
-  result.agreement = agreement(field, result.map_from_laser, sigmas.back());
+  const Placed at = placed(field, result.map_from_laser, Eigen::Vector3f::Zero());
+  result.agreement = agreement(field, at, sigmas.back());
   return result;
-}
-
-float QuickFit::agreement(const WallField& field, const Pose2& map_from_laser,
-                          float sigma_m) const {
-  return agreement(field, placed(field, map_from_laser, Eigen::Vector3f::Zero()), sigma_m);
 }
 
 float QuickFit::agreement(const WallField& field, const Placed& at, float sigma_m) const {
   if (count_ == 0) return 0.0F;
   return weight_at(field, returns_, at, 1.0F / (sigma_m * sigma_m)) / static_cast<float>(count_);
+}
+
+QuickFit::OffWeights QuickFit::off_weights(float sigma_m) {
+  OffWeights weights{};
+  for (std::size_t code = 0; code < WallField::kFarOff; ++code) {
+    const float off = WallField::kOffStep * (static_cast<float>(code) + 0.5F);
+    weights[code] = weight_of(off * off / (sigma_m * sigma_m));
+  }
+  return weights;
+}
+
+float QuickFit::rough_agreement(const WallField& field, const Placed& at,
+                                const OffWeights& weights) const {
+  if (count_ == 0) return 0.0F;
+  float sum = 0.0F;
+  for (const Returns& returns : returns_) {
+    for (std::size_t i = 0; i < kLanes; ++i) {
+      const float x = at.x + (at.cosine * returns.x[i] - at.sine * returns.y[i]);
+      const float y = at.y + (at.sine * returns.x[i] + at.cosine * returns.y[i]);
+      sum += returns.counts[i] * weights[field.off_code(x, y)];
+    }
+  }
+  return sum / static_cast<float>(count_);
 }
 
 float QuickFit::through(const WallField& field, const Pose2& map_from_laser) const {

@@ -34,9 +34,6 @@ class QuickFit {
   /// The share of the returns before which a wall stands.
   float through(const WallField& field, const Pose2& map_from_laser) const;
 
-  /// The share of the returns that lie at a wall, each by how near it is (one sigma, m).
-  float agreement(const WallField& field, const Pose2& map_from_laser, float sigma_m) const;
-
   /// A pose relative to the field's origin (m), with the cosine and sine of its heading.
   struct Placed {
     float x = 0.0F;
@@ -44,7 +41,17 @@ class QuickFit {
     float cosine = 1.0F;
     float sine = 0.0F;
   };
+
+  /// The share of the returns that lie at a wall, each by how near it is (one sigma, m).
   float agreement(const WallField& field, const Placed& at, float sigma_m) const;
+
+  /// What each code of how far off counts (one sigma, m).
+  using OffWeights = std::array<float, 256>;
+  static OffWeights off_weights(float sigma_m);
+
+  /// By how near the middles of their squares are: rougher, and several times as fast in a large
+  /// plan.
+  float rough_agreement(const WallField& field, const Placed& at, const OffWeights& weights) const;
 
   /// Some returns (laser axes, m), in lanes that are worked on side by side: twice as many as the
   /// widest vectors hold, for compilers unroll shorter loops before they make vectors of them.

@@ -35,6 +35,7 @@ WallField::WallField(const LineMap& map) {
   const std::int32_t tile_rows = (static_cast<std::int32_t>(squares.y()) >> kTileBits) + 1;
   tiles_.assign(static_cast<std::size_t>(tile_rows) * static_cast<std::size_t>(tile_columns_), 0);
   cells_.emplace_back().fill(kNone);
+  offs_.emplace_back().fill(kFarOff);
   for (const Wall& wall : map.walls()) {
     const Segment& segment = wall.segment;
     const Vector2d a = segment.a - origin_;
@@ -80,12 +81,16 @@ void WallField::offer(std::int32_t column, std::int32_t row, std::int32_t line) 
   if (tile == 0) {
     tile = static_cast<std::int32_t>(cells_.size());
     cells_.emplace_back().fill(kNone);
+    offs_.emplace_back().fill(kFarOff);
   }
   std::int32_t& nearest = cells_[static_cast<std::size_t>(tile)][cell_of(column, row)];
   const bool is_nearer =
       nearest == kNone ||
       squared < squared_distance(lines_[static_cast<std::size_t>(nearest)], x, y);
-  if (is_nearer) nearest = line;
+  if (!is_nearer) return;
+  nearest = line;
+  const float steps = std::min(std::sqrt(squared) / kOffStep, static_cast<float>(kFarOff));
+  offs_[static_cast<std::size_t>(tile)][cell_of(column, row)] = static_cast<std::uint8_t>(steps);
 }
 
 std::optional<WallField::Meeting> WallField::meet(const Vector2d& point) const {
@@ -133,7 +138,7 @@ bool WallField::is_between(float from_x, float from_y, float to_x, float to_y,
 
 std::size_t WallField::memory() const {
   return tiles_.capacity() * sizeof(std::int32_t) + cells_.capacity() * sizeof(Tile) +
-         lines_.capacity() * sizeof(Line);
+         offs_.capacity() * sizeof(TileOffs) + lines_.capacity() * sizeof(Line);
 }
 
 }  // namespace adit

@@ -11,7 +11,8 @@
 namespace adit {
 
 /// The wall nearest to any point, if there is one near, in a few nanoseconds: squares of half a
-/// metre that know the wall nearest to their middle. Memory grows with the length of the walls.
+/// metre that know the wall nearest to their middle and how far that is. Memory grows with the
+/// length of the walls.
 class WallField {
  public:
   /// A wall, relative to the field's origin (m). In single precision: a millimetre at ten
@@ -44,6 +45,18 @@ class WallField {
   }
   static constexpr std::int32_t kNone = 0;
 
+  /// How far the middle of the point's square is from that wall, in steps of `kOffStep`; no more
+  /// than the last code, and that where none is near. A fourth of the memory of `nearest` to read.
+  std::uint8_t off_code(float x, float y) const {
+    if (!(x >= 0.0F && y >= 0.0F && x < width_ && y < height_)) return kFarOff;
+    const auto column = static_cast<std::int32_t>(x * kPerMetre);
+    const auto row = static_cast<std::int32_t>(y * kPerMetre);
+    const std::int32_t tile = tiles_[tile_of(column, row)];
+    return offs_[static_cast<std::size_t>(tile)][cell_of(column, row)];
+  }
+  static constexpr float kOffStep = 1.0F / 128.0F;  // m
+  static constexpr std::uint8_t kFarOff = 255;
+
   /// A wall by its number; that of `kNone` is met nowhere.
   const Line& line(std::int32_t number) const { return lines_[static_cast<std::size_t>(number)]; }
 
@@ -69,6 +82,7 @@ class WallField {
   static constexpr std::int32_t kTileBits = 4;
   static constexpr std::int32_t kTile = 1 << kTileBits;
   using Tile = std::array<std::int32_t, kTile * kTile>;
+  using TileOffs = std::array<std::uint8_t, kTile * kTile>;
 
   std::size_t tile_of(std::int32_t column, std::int32_t row) const {
     return static_cast<std::size_t>(row >> kTileBits) * static_cast<std::size_t>(tile_columns_) +
@@ -86,6 +100,7 @@ class WallField {
   std::int32_t tile_columns_ = 0;
   std::vector<std::int32_t> tiles_;  // the first where no wall is near
   std::vector<Tile> cells_;
+  std::vector<TileOffs> offs_;
   // One after those of the map; on the first nothing lies.
   std::vector<Line> lines_{{0.0F, 0.0F, 1.0F, 0.0F, -1e9F}};
 };
