@@ -60,6 +60,24 @@ TEST(CornerSearch, TakesCornersOfTheScanForThoseOfThePlan) {
   EXPECT_LE(found.size(), 100u);
 }
 
+TEST(CornerSearch, TakesMoreOfTheLastSearchWithoutRatingItAgain) {
+  const LineMap map = rooms();
+  const PlaceIndex index = corners_alone(map);
+  const LaserScan scan = scan_from(map, {1203.0, 4.0, 2.1});
+  CornerSearch search;
+  const std::size_t few = search.find(index, scan, scanner(), {}, 5, {}).size();
+  EXPECT_LE(few, 5u);
+  const auto more = search.take(index, 100, {});
+  EXPECT_GT(more.size(), few);
+  CornerSearch at_once;
+  const auto same = at_once.find(index, scan, scanner(), {}, 100, {});
+  ASSERT_EQ(more.size(), same.size());
+  for (std::size_t i = 0; i < more.size(); ++i) {
+    EXPECT_EQ(more[i].map_from_laser.x, same[i].map_from_laser.x);
+    EXPECT_EQ(more[i].map_from_laser.theta, same[i].map_from_laser.theta);
+  }
+}
+
 TEST(CornerSearch, LooksOnlyWhereItIsAskedTo) {
   const LineMap map = rooms();
   const PlaceIndex index = corners_alone(map);

@@ -51,6 +51,26 @@ TEST(QuickFit, MovesAScanOntoItsWalls) {
   }
 }
 
+TEST(QuickFit, RoughAgreementTellsTheRightPoseFromOthers) {
+  const LineMap map = room();
+  const WallField field(map);
+  const Pose2 truth{6.0, 4.0, 0.5};
+  QuickFit quick_fit;
+  quick_fit.set_scan(scan_from(map, truth), scanner(), 40);
+  const auto weights = QuickFit::off_weights(0.4F);
+  const auto rough = [&](const Pose2& pose) {
+    const Vector2d here = pose.translation() - field.origin();
+    return quick_fit.rough_agreement(
+        field,
+        {static_cast<float>(here.x()), static_cast<float>(here.y()),
+         static_cast<float>(std::cos(pose.theta)), static_cast<float>(std::sin(pose.theta))},
+        weights);
+  };
+  EXPECT_GT(rough(truth), 0.45F);
+  EXPECT_LT(rough({9.0, 5.0, 2.0}), 0.3F);
+  EXPECT_EQ(rough({1e6, 5.0, 2.0}), 0.0F);
+}
+
 TEST(QuickFit, AgreesLessWhereTheScanWasNotTaken) {
   const LineMap map = room();
   const WallField field(map);

@@ -39,6 +39,20 @@ TEST(WallField, MeetsNoWallBeyondItsEnd) {
   EXPECT_FALSE(field.meet({140.6, 50.0}));
 }
 
+TEST(WallField, CodesHowFarThePlanIsFromAWall) {
+  const WallField field(LineMap::build(drift()));
+  const auto off = [&](const Vector2d& point) {
+    const Vector2d here = point - field.origin();
+    return field.off_code(static_cast<float>(here.x()), static_cast<float>(here.y()));
+  };
+  for (const double y : {50.1, 50.6, 51.2}) {
+    const double metres = static_cast<double>(WallField::kOffStep) * off({120.0, y});
+    EXPECT_NEAR(metres, y - 50.0, 0.26) << y;  // half a square
+  }
+  EXPECT_EQ(off({120.0, 53.0}), WallField::kFarOff);
+  EXPECT_EQ(off({-1e6, 1e6}), WallField::kFarOff);
+}
+
 TEST(WallField, KnowsWhatLiesBehindAWall) {
   const WallField field(LineMap::build(drift()));
   const auto is_between = [&](const Vector2d& from, const Vector2d& to) {
