@@ -18,6 +18,7 @@ struct LocateOptions {
   int count = 200;
   std::uint64_t seed = 1;
   double map_sigma = 0.1;
+  double rough = 0.0;
   int threads = 1;
   int side = 20;
   int worst = 0;
@@ -38,6 +39,8 @@ struct LocateOptions {
     field("count", self.count, "scans");
     field("seed", self.seed, "of noise, clutter and places");
     field("map_sigma", self.map_sigma, "what is stated of the plan's error (m)");
+    field("rough", self.rough,
+          "in a mine, each end of a wall is so far from where the plan has it, one sigma (m)");
     field("threads", self.threads, "that build the index");
     field("side", self.side, "pillars along each side of a panel");
     field("worst", self.worst,

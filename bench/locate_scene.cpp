@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "adit/io/carmen.hpp"
 #include "adit/io/plan.hpp"
@@ -16,6 +18,7 @@ namespace {
 // Streams of the seed.
 constexpr std::uint64_t kNoise = 41;
 constexpr std::uint64_t kPlaces = 42;
+constexpr std::uint64_t kEnds = 43;
 
 constexpr double kNearby = 25.0;  // farther walls are not in the way of clutter (m)
 
@@ -44,6 +47,22 @@ class Surveyor {
   const LocateOptions& options_;
 };
 
+/// The walls of a mine whose plan has their ends elsewhere; those that met still do.
+std::vector<Segment> with_moved_ends(std::vector<Segment> walls, const LocateOptions& options) {
+  std::map<std::pair<double, double>, Vector2d> moved;
+  Random random(options.seed, kEnds);
+  for (Segment& wall : walls) {
+    for (Vector2d* end : {&wall.a, &wall.b}) {
+      const auto [known, is_new] = moved.try_emplace({end->x(), end->y()});
+      if (is_new) {
+        known->second = *end + options.rough * Vector2d(random.normal(), random.normal());
+      }
+      *end = known->second;
+    }
+  }
+  return walls;
+}
+
 std::string mine(const LocateOptions& options, const std::string& name) {
   return options.data + "/mines/" + name;
 }
@@ -69,7 +88,7 @@ Result<LocateScene> mine_scene(const LocateOptions& options, const ScannerSpec& 
   if (!poses) return tl::unexpected(poses.error());
   LocateScene scene;
   scene.map = LineMap::build(plan->segments);
-  const Surveyor surveyor(walls->segments, spec, options);
+  const Surveyor surveyor(with_moved_ends(walls->segments, options), spec, options);
   const auto first = static_cast<std::size_t>(options.first);
   for (std::size_t i = 0; i < poses->size(); ++i) {
     const Pose2& pose = (*poses)[i];
