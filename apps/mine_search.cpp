@@ -6,8 +6,15 @@
 #include <limits>
 
 #include "adit/refinement/map_error.hpp"
+#include "adit/relocation/place_verdict.hpp"
 
 namespace adit {
+
+namespace {
+
+double likeliest(const RelocationResult& found) { return found.poses.front().log_likelihood; }
+
+}  // namespace
 
 MineSearch::MineSearch(const std::vector<MineLevel>& levels, const LocalizerSettings& settings)
     : levels_(levels), settings_(settings) {
@@ -19,20 +26,29 @@ MineAnswer MineSearch::locate(const LaserScan& scan, const std::optional<SweepPr
   const auto start = Clock::now();
   const ScannerModel& scanner = settings_.scanner_of(scan);
   const MapError stated = MapErrorEstimator(settings_.map).error();
+  const RelocationQuery query{scan, scanner, stated, motion, std::nullopt};
   MineAnswer answer;
-  double share_of_news = 1.0;
-  double best = -std::numeric_limits<double>::infinity();
+  RelocationResult best;
+  double best_elsewhere = -std::numeric_limits<double>::infinity();
+  std::size_t places = 0;
   for (std::size_t i = 0; i < levels_.size(); ++i) {
-    const RelocationResult& found =
-        relocators_[i].locate({scan, scanner, stated, motion, std::nullopt}, settings_.relocation,
-                              settings_.likelihood, settings_.refinement, settings_.status);
+    const RelocationResult& found = relocators_[i].locate(
+        query, settings_.relocation, settings_.likelihood, settings_.refinement, settings_.status);
     for (const RankedPose& pose : found.poses) answer.poses.push_back({pose, i});
-    if (found.poses.empty() || found.poses.front().log_likelihood <= best) continue;
-    best = found.poses.front().log_likelihood;
-    share_of_news = found.share_of_news;
-    answer.verdict = found.verdict;
+    places += relocators_[i].places();
+    if (found.poses.empty()) continue;
+    const bool is_best = best.poses.empty() || likeliest(found) > likeliest(best);
+    const RelocationResult& other = is_best ? best : found;
+    if (!other.poses.empty()) best_elsewhere = std::max(best_elsewhere, likeliest(other));
+    if (is_best) best = found;
   }
-  if (levels_.size() > 1) weigh(share_of_news, answer);
+  answer.verdict = best.verdict;
+  if (levels_.size() > 1 && !best.poses.empty()) {
+    const double lead = best.share_of_news * (likeliest(best) - best_elsewhere);
+    best.gap = std::min(best.gap, lead);
+    answer.verdict = judge_place(best, query, places, settings_.relocation, settings_.status);
+    weigh(best.share_of_news, answer);
+  }
   answer.elapsed_s = std::chrono::duration<double>(Clock::now() - start).count();
   return answer;
 }

@@ -22,8 +22,8 @@ struct OracleAnswer {
 
 /// Whether a scan could have been taken elsewhere in a plan, by brute force: every pose of a grid
 /// over the openings (0.25 m, 1 degree) is rated by the scan's ranges, the best thousand are
-/// fitted. It shares the fit and the likelihood with the relocation, but neither its index nor its
-/// search.
+/// fitted. It shares the fit and the likelihood with the relocation (but for walls that are gone,
+/// and with a given error of the plan), neither its index nor its search.
 class PoseOracle {
  public:
   /// `inside` are positions in the openings; what is connected with them is one of them.

@@ -90,7 +90,8 @@ class Mine {
     const std::size_t n = scene_.cases.size();
     const Pose2& from = *scene_.cases[run % n].truth;
     std::size_t other = (run + n / 2) % n;
-    while ((scene_.cases[other].truth->translation() - from.translation()).norm() < 10.0) {
+    for (std::size_t tried = 0; tried < n; ++tried) {
+      if ((scene_.cases[other].truth->translation() - from.translation()).norm() >= 10.0) break;
       other = (other + 1) % n;
     }
     const std::uint64_t seed = options_.seed + run;
@@ -182,7 +183,8 @@ class Mine {
       ++out.scans;
       out.trusted += trusted ? 1 : 0;
       out.trusted_wrong += trusted && !right ? 1 : 0;
-      if (trusted && right && out.metres_to_right < 0.0) out.metres_to_right = metres;
+      if (e.status == Status::ok && right && out.metres_to_right < 0.0)
+        out.metres_to_right = metres;
       if (is_traced) trace(localizer, truth, metres);
     }
     return out;
@@ -262,6 +264,12 @@ int run(const LocateOptions& options) {
   const auto scene = make_locate_scene(options);
   if (!scene) {
     fmt::print(stderr, "{}\n", to_string(scene.error()));
+    return 1;
+  }
+  const bool has_truth = std::all_of(scene->cases.begin(), scene->cases.end(),
+                                     [](const LocateCase& one) { return one.truth.has_value(); });
+  if (scene->cases.size() < 2 || !has_truth) {
+    fmt::print(stderr, "drives need two poses at least, in the plan that is sought in\n");
     return 1;
   }
   const Mine mine(*scene, options);

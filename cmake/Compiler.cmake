@@ -12,6 +12,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   # GCC bug 105651: a false alarm inside std::string's operator+.
   target_compile_options(adit_private INTERFACE -Wno-restrict)
 endif()
+# A replay gives the same on every machine: no compiler fuses a product and a sum where it can.
+target_compile_options(adit_private INTERFACE -ffp-contract=off)
 if(ADIT_WARNINGS_AS_ERRORS)
   target_compile_options(adit_private INTERFACE -Werror)
 endif()

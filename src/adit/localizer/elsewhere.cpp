@@ -16,7 +16,7 @@ PlaceFinderOptions Localizer::finder_options() const {
                     &relocation.rated_again}) {
     *most = std::max(*most, settings_.recovery.most_poses);
   }
-  relocation.second_look_gap = 0.0;  // the first is thorough, and the way decides
+  relocation.second_look_gap = 0.0;  // one look, which is thorough, and the way decides
   return {settings_.places, relocation, settings_.likelihood, settings_.refinement,
           settings_.status};
 }

@@ -20,24 +20,24 @@ std::span<const PlaceMatch> CornerSearch::find(const PlaceIndex& index, const La
                                                const std::optional<SearchArea>& area,
                                                std::size_t most,
                                                const CornerSearchOptions& options) {
-  sense(scan, scanner, options);
-  choose_corners(index.corners(), options);
+  options_ = options;
+  sense(scan, scanner);
+  choose_corners(index.corners());
   few_returns_.set_scan(scan, scanner, count_of(options.returns));
-  rate(index, area, options);
-  return take(index, most, options);
+  rate(index, area);
+  return take(index, most);
 }
 
 /// The corners that walls of the scan make with each other, each with the space in which the
 /// scanner stands.
-void CornerSearch::sense(const LaserScan& scan, const ScannerModel& scanner,
-                         const CornerSearchOptions& options) {
+void CornerSearch::sense(const LaserScan& scan, const ScannerModel& scanner) {
   sensed_.clear();
-  const FeatureList& features = extractor_.extract(scan, scanner, options.extraction);
+  const FeatureList& features = extractor_.extract(scan, scanner, options_.extraction);
   const auto& lines = features.lines;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     for (std::size_t j = i + 1; j < lines.size(); ++j) {
-      const auto met =
-          corner_of({lines[i].begin, lines[i].end}, {lines[j].begin, lines[j].end}, options.limits);
+      const auto met = corner_of({lines[i].begin, lines[i].end}, {lines[j].begin, lines[j].end},
+                                 options_.limits);
       if (!met) continue;
       const double a = direction_of(met->along_a);
       const double b = direction_of(met->along_b);
@@ -61,25 +61,24 @@ void CornerSearch::sense(const LaserScan& scan, const ScannerModel& scanner,
 }
 
 /// What a corner of the plan must be like to be taken for one of the scan.
-CornerIndex::Likeness CornerSearch::likeness(const Sensed& sensed,
-                                             const CornerSearchOptions& options) const {
-  return {static_cast<double>(sensed.opening), options.tolerance_rad,
-          sensed.gap_m + options.gap_slack_m};
+CornerIndex::Likeness CornerSearch::likeness(const Sensed& sensed) const {
+  return {static_cast<double>(sensed.opening), options_.tolerance_rad,
+          sensed.gap_m + options_.gap_slack_m};
 }
 
 /// Those of the longest walls that come nearest to each other, as many as the plan's size allows.
-void CornerSearch::choose_corners(const CornerIndex& corners, const CornerSearchOptions& options) {
+void CornerSearch::choose_corners(const CornerIndex& corners) {
   std::stable_sort(sensed_.begin(), sensed_.end(), [](const Sensed& a, const Sensed& b) {
     return a.arm_m - a.gap_m > b.arm_m - b.gap_m;
   });
-  const auto fewest = count_of(options.fewest);
-  const auto most = count_of(options.most);
+  const auto fewest = count_of(options_.fewest);
+  const auto most = count_of(options_.most);
   std::size_t pairs = 0;
   std::size_t kept = 0;
   for (; kept < std::min(sensed_.size(), most); ++kept) {
-    corners.visit(likeness(sensed_[kept], options),
+    corners.visit(likeness(sensed_[kept]),
                   [&](std::size_t, std::span<const Sector> like) { pairs += like.size(); });
-    if (kept >= fewest && static_cast<double>(pairs) > options.most_pairs) break;
+    if (kept >= fewest && static_cast<double>(pairs) > options_.most_pairs) break;
   }
   sensed_.resize(kept);
 }
@@ -118,33 +117,31 @@ static std::size_t lowest_of(const std::vector<std::uint8_t>& ratings, std::size
 
 /// Calls `each(sensed, number of the sector, sector)` for all pairs that are alike.
 template <class Each>
-void CornerSearch::for_each_pair(const CornerIndex& corners, const CornerSearchOptions& options,
-                                 const Each& each) const {
+void CornerSearch::for_each_pair(const CornerIndex& corners, const Each& each) const {
   for (std::uint32_t s = 0; s < sensed_.size(); ++s) {
-    corners.visit(likeness(sensed_[s], options),
-                  [&](std::size_t first, std::span<const Sector> like) {
-                    for (std::size_t i = 0; i < like.size(); ++i) each(s, first + i, like[i]);
-                  });
+    corners.visit(likeness(sensed_[s]), [&](std::size_t first, std::span<const Sector> like) {
+      for (std::size_t i = 0; i < like.size(); ++i) each(s, first + i, like[i]);
+    });
   }
 }
 
 /// All pairs roughly, and the best of them again.
-void CornerSearch::rate(const PlaceIndex& index, const std::optional<SearchArea>& area,
-                        const CornerSearchOptions& options) {
+void CornerSearch::rate(const PlaceIndex& index, const std::optional<SearchArea>& area) {
   ratings_.clear();
   const WallField& walls = index.walls();
-  const auto sigma = static_cast<float>(options.sigma_m);
+  const auto sigma = static_cast<float>(options_.sigma_m);
   const auto weights = QuickFit::off_weights(sigma);
-  for_each_pair(index.corners(), options, [&](std::uint32_t s, std::size_t, const Sector& sector) {
+  for_each_pair(index.corners(), [&](std::uint32_t s, std::size_t, const Sector& sector) {
     const QuickFit::Placed at = place(sensed_[s], sector);
     const bool is_asked = !area || area->holds(in_map(at, walls.origin()).translation());
     const float agreement = is_asked ? few_returns_.rough_agreement(walls, at, weights) : 0.0F;
     ratings_.push_back(static_cast<std::uint8_t>(kFullRating * agreement));
   });
   const std::size_t lowest = std::max<std::size_t>(
-      1, lowest_of(ratings_, part_of(ratings_.size(), options.rated_share, options.fewest_rated)));
+      1,
+      lowest_of(ratings_, part_of(ratings_.size(), options_.rated_share, options_.fewest_rated)));
   std::size_t pair = 0;
-  for_each_pair(index.corners(), options, [&](std::uint32_t s, std::size_t, const Sector& sector) {
+  for_each_pair(index.corners(), [&](std::uint32_t s, std::size_t, const Sector& sector) {
     std::uint8_t& rating = ratings_[pair++];
     const bool is_asked = rating >= lowest;
     rating = 0;
@@ -156,19 +153,18 @@ void CornerSearch::rate(const PlaceIndex& index, const std::optional<SearchArea>
 }
 
 /// The best rated, one of each cell: the corners of one place say the same.
-std::span<const PlaceMatch> CornerSearch::take(const PlaceIndex& index, std::size_t most,
-                                               const CornerSearchOptions& options) {
+std::span<const PlaceMatch> CornerSearch::take(const PlaceIndex& index, std::size_t most) {
   found_.clear();
   const std::size_t worst = std::max<std::size_t>(1, lowest_of(ratings_, 8 * most));
   ranked_.clear();
   std::size_t pair = 0;
-  for_each_pair(index.corners(), options, [&](std::uint32_t s, std::size_t i, const Sector&) {
+  for_each_pair(index.corners(), [&](std::uint32_t s, std::size_t i, const Sector&) {
     const std::uint8_t rating = ratings_[pair++];
     if (rating >= worst) ranked_.push_back({rating, s, static_cast<std::uint32_t>(i)});
   });
   std::stable_sort(ranked_.begin(), ranked_.end(),
                    [](const Ranked& a, const Ranked& b) { return a.rating > b.rating; });
-  keep_one_of_each_cell(index, most, options);
+  keep_one_of_each_cell(index, most);
   // In the order of the plan, not of the ratings: what is near is looked up together.
   std::sort(ranked_.begin(), ranked_.end(), [](const Ranked& a, const Ranked& b) {
     return std::tie(a.sensed, a.sector) < std::tie(b.sensed, b.sector);
@@ -180,9 +176,8 @@ std::span<const PlaceMatch> CornerSearch::take(const PlaceIndex& index, std::siz
 }
 
 /// Of the ranked pairs no more than so many, those first that come first.
-void CornerSearch::keep_one_of_each_cell(const PlaceIndex& index, std::size_t most,
-                                         const CornerSearchOptions& options) {
-  cells_.clear(ranked_.size(), options.cell_m, options.cell_rad);
+void CornerSearch::keep_one_of_each_cell(const PlaceIndex& index, std::size_t most) {
+  cells_.clear(ranked_.size(), options_.cell_m, options_.cell_rad);
   std::size_t kept = 0;
   for (const Ranked& ranked : ranked_) {
     if (kept >= most) break;

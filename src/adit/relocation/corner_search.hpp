@@ -25,9 +25,8 @@ class CornerSearch {
                                    const std::optional<SearchArea>& area, std::size_t most,
                                    const CornerSearchOptions& options);
 
-  /// The same of the last search, but so many.
-  std::span<const PlaceMatch> take(const PlaceIndex& index, std::size_t most,
-                                   const CornerSearchOptions& options);
+  /// The same of the last search, which was in this index, but so many.
+  std::span<const PlaceMatch> take(const PlaceIndex& index, std::size_t most);
 
  private:
   /// A corner of the scan.
@@ -49,21 +48,18 @@ class CornerSearch {
     std::uint32_t sector = 0;  // of the plan
   };
 
-  void sense(const LaserScan& scan, const ScannerModel& scanner,
-             const CornerSearchOptions& options);
-  void choose_corners(const CornerIndex& corners, const CornerSearchOptions& options);
+  void sense(const LaserScan& scan, const ScannerModel& scanner);
+  void choose_corners(const CornerIndex& corners);
   template <class Each>
-  void for_each_pair(const CornerIndex& corners, const CornerSearchOptions& options,
-                     const Each& each) const;
-  void rate(const PlaceIndex& index, const std::optional<SearchArea>& area,
-            const CornerSearchOptions& options);
-  CornerIndex::Likeness likeness(const Sensed& sensed, const CornerSearchOptions& options) const;
-  void keep_one_of_each_cell(const PlaceIndex& index, std::size_t most,
-                             const CornerSearchOptions& options);
+  void for_each_pair(const CornerIndex& corners, const Each& each) const;
+  void rate(const PlaceIndex& index, const std::optional<SearchArea>& area);
+  CornerIndex::Likeness likeness(const Sensed& sensed) const;
+  void keep_one_of_each_cell(const PlaceIndex& index, std::size_t most);
   Pose2 pose_of(const Ranked& ranked, const PlaceIndex& index) const;
   static QuickFit::Placed place(const Sensed& sensed, const Sector& sector);
 
   Extractor extractor_;
+  CornerSearchOptions options_;  // of the last search
   QuickFit few_returns_;
   std::vector<Sensed> sensed_;
   std::vector<std::uint8_t> ratings_;  // of each sensed corner and each of the plan that is like it

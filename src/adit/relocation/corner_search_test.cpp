@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -60,6 +61,24 @@ TEST(CornerSearch, TakesCornersOfTheScanForThoseOfThePlan) {
   EXPECT_LE(found.size(), 100u);
 }
 
+TEST(CornerSearch, RatesAgainOnlyTheBestAndFindsTheCornerAmongThem) {
+  const LineMap map = rooms();
+  const PlaceIndex index = corners_alone(map);
+  const Pose2 truth{1203.0, 4.0, 2.1};
+  CornerSearchOptions few;
+  few.rated_share = 0.0;
+  few.fewest_rated = 20;
+  CornerSearch search;
+  const LaserScan scan = scan_from(map, truth);
+  const std::size_t all = search.find(index, scan, scanner(), {}, 1000, {}).size();
+  const auto found = search.find(index, scan, scanner(), {}, 1000, few);
+  EXPECT_LT(found.size(), all);
+  EXPECT_TRUE(std::any_of(found.begin(), found.end(), [&](const PlaceMatch& match) {
+    const Vector3d off = difference(truth, match.map_from_laser);
+    return off.head<2>().norm() < 0.1 && std::abs(off.z()) < radians(1.0);
+  }));
+}
+
 TEST(CornerSearch, TakesMoreOfTheLastSearchWithoutRatingItAgain) {
   const LineMap map = rooms();
   const PlaceIndex index = corners_alone(map);
@@ -67,7 +86,7 @@ TEST(CornerSearch, TakesMoreOfTheLastSearchWithoutRatingItAgain) {
   CornerSearch search;
   const std::size_t few = search.find(index, scan, scanner(), {}, 5, {}).size();
   EXPECT_LE(few, 5u);
-  const auto more = search.take(index, 100, {});
+  const auto more = search.take(index, 100);
   EXPECT_GT(more.size(), few);
   CornerSearch at_once;
   const auto same = at_once.find(index, scan, scanner(), {}, 100, {});

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
+
 #include "adit/extraction/extraction.hpp"
 #include "adit/geometry/angle.hpp"
 #include "adit/relocation/corner_index.hpp"
@@ -181,8 +184,8 @@ struct RelocationOptions {
   template <class Self, class Field>
   static void visit_search(Self& self, Field& field) {
     field("shorter_cap", self.shorter_cap,
-          "most that a bearing speaks against a place where the scan is shorter than the plan: "
-          "something may stand there (steps of the range code, at most 15)");
+          "most that a bearing speaks against a heading of a place where the scan is shorter than "
+          "the plan: something may stand there (steps of the range code, at most 15)");
     field("longer_cap", self.longer_cap, "and where it is longer: it went through rock");
     field("first_bins", self.first_bins,
           "so many bearings choose the places at which all are tried (at most 16)");
@@ -193,6 +196,11 @@ struct RelocationOptions {
     field("compared_share", self.compared_share,
           "so many of them, a share of all places, are compared with the scan in all bearings");
     field("compared", self.compared, "but not fewer than this");
+    field("slack_ratio", self.slack_ratio,
+          "walls may be nearer or farther from a place of the index by this part of its pitch");
+    CornerSearchOptions::visit(self.corners, field);
+    field("agreement_per_through", self.agreement_per_through,
+          "a return from behind a wall outweighs so many that lie at walls");
     field("moved_share", self.moved_share,
           "so many poses of those, a share likewise, are moved onto the walls nearest to the scan: "
           "a larger plan has more places that are alike");
@@ -206,13 +214,8 @@ struct RelocationOptions {
     field("corners_moved_again_share", self.corners_moved_again_share,
           "and the best of these moved on");
     field("corners_moved_again", self.corners_moved_again, "but not fewer than this");
-    field("agreement_per_through", self.agreement_per_through,
-          "a return from behind a wall outweighs so many that lie at walls");
-    CornerSearchOptions::visit(self.corners, field);
     field("first_beams", self.first_beams, "first with so many beams");
     field("quick_beams", self.quick_beams, "then with so many");
-    field("slack_ratio", self.slack_ratio,
-          "walls may be nearer or farther from a place of the index by this part of its pitch");
     field("fewest_candidates", self.fewest_candidates,
           "so many of those are fitted with some of the beams ...");
     field("candidates", self.candidates, "... and up to so many ...");
@@ -257,7 +260,8 @@ struct RelocationOptions {
     field("apart_rad", self.apart_rad, "... or turned by more than this (rad)");
     field("second_look_gap", self.second_look_gap,
           "after the first look a pose is sure only where no other comes nearer to it than this "
-          "(log); else a second one at twice as many places decides");
+          "(log); else a second one decides, with more fits and, in a small plan, at twice as many "
+          "places; 0 for none");
     field("sure_gap", self.sure_gap,
           "a pose is sure only where every other one is less likely by this (log), for a scan that "
           "sees all around; one that sees part of a turn agrees with more places by chance, and is "
@@ -286,13 +290,18 @@ struct RelocationOptions {
 /// With more of all that thins out the search, for a second look: twice as many places, but where
 /// a large plan has that many already.
 inline RelocationOptions widened(RelocationOptions options) {
-  options.score_slack *= 2.0;
+  const auto multiply = [](int& count, int times) {
+    count = std::min(count, std::numeric_limits<int>::max() / times) * times;
+  };
   for (int* count : {&options.fewest_rated, &options.compared, &options.moved, &options.moved_again,
                      &options.corners_moved, &options.corners_moved_again,
                      &options.fewest_candidates, &options.candidates}) {
-    *count *= 2;
+    multiply(*count, 2);
   }
-  for (int* count : {&options.rated_again, &options.fitted_again, &options.refined}) *count *= 3;
+  for (int* count : {&options.rated_again, &options.fitted_again, &options.refined}) {
+    multiply(*count, 3);
+  }
+  options.score_slack *= 2.0;
   options.unfitted_gap *= 3.0;
   return options;
 }

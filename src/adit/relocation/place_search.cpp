@@ -38,7 +38,7 @@ std::span<const PlaceMatch> PlaceSearch::find_again(const PlaceIndex& index, con
                                                     const std::optional<SearchArea>& area,
                                                     const RelocationOptions& options) {
   const auto views = view_search_.find(index, scan, scanner, area, options);
-  const auto corners = corner_search_.take(index, corners_moved(index, options), options.corners);
+  const auto corners = corner_search_.take(index, corners_moved(index, options));
   return move(index, scan, scanner, views, corners, options);
 }
 

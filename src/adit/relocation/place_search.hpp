@@ -20,7 +20,8 @@ class PlaceSearch {
                                    const std::optional<SearchArea>& area,
                                    const RelocationOptions& options);
 
-  /// The same for the scan of the last search, by other limits of how many.
+  /// The same for the scan of the last search, in the same index and area, by other limits of how
+  /// many; what corners are taken for stays as it was.
   std::span<const PlaceMatch> find_again(const PlaceIndex& index, const LaserScan& scan,
                                          const ScannerModel& scanner,
                                          const std::optional<SearchArea>& area,

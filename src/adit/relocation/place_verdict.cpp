@@ -55,17 +55,23 @@ bool is_near(const Pose2& a, const Pose2& b, double metres, double radians) {
 }
 
 double turn_in_sight(const LaserScan& scan, const ScannerModel& scanner) {
-  constexpr std::size_t kSectors = 72;
-  std::array<bool, kSectors> seen{};
+  constexpr std::size_t kMostSectors = 72;
+  // Half as many as a turn has beams, so that none falls between two of them.
+  const double beams = kTwoPi / std::max(1e-6, std::abs(scan.bearing_step));
+  const auto sectors =
+      static_cast<std::size_t>(std::clamp(0.5 * beams, 1.0, static_cast<double>(kMostSectors)));
+  std::array<bool, kMostSectors> seen{};
   const double no_return = scanner.no_return_from(scan.max_range);
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
     const double range = scan.ranges[i];
     if (!(range > 0.0 && range >= scanner.min_range_m && range < no_return)) continue;
     const double turns = scan.bearing(i) / kTwoPi;
-    const auto sector = static_cast<std::size_t>((turns - std::floor(turns)) * kSectors);
-    seen[std::min(sector, kSectors - 1)] = true;
+    const auto sector =
+        static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(sectors));
+    seen[std::min(sector, sectors - 1)] = true;
   }
-  return static_cast<double>(std::count(seen.begin(), seen.end(), true)) / kSectors;
+  return static_cast<double>(std::count(seen.begin(), seen.end(), true)) /
+         static_cast<double>(sectors);
 }
 
 Status judge_place(const RelocationResult& found, const RelocationQuery& query, std::size_t places,

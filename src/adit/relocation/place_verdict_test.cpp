@@ -38,7 +38,7 @@ RelocationResult one_pose(double gap) {
   found.poses = {pose_at(0.0, 1.0)};
   found.gap = gap;
   found.lines = 12;
-  found.map_error = {};
+  found.map_error = {0.0125, 2.0, 0.0};  // the least that a search looks for
   return found;
 }
 
@@ -51,7 +51,7 @@ Status judge(const RelocationResult& found, const LaserScan& scan = scan_of(kTwo
 
 TEST(PlaceVerdict, OnePoseThatLeadsIsThePlace) {
   EXPECT_EQ(judge(one_pose(2.0)), Status::ok);
-  EXPECT_EQ(judge(one_pose(0.2)), Status::ambiguous);
+  EXPECT_EQ(judge(one_pose(1.2)), Status::ambiguous);
 }
 
 TEST(PlaceVerdict, NoPoseOrOneThatExplainsNothingIsLost) {
@@ -96,7 +96,7 @@ TEST(PlaceVerdict, WhatSpeaksForChanceAsksForALongerLead) {
     RelocationResult found = one_pose(2.0);
     doubt(found);
     EXPECT_EQ(judge(found), Status::ambiguous) << &doubt - doubts;
-    found.gap = 10.0;
+    found.gap = 12.0;
     EXPECT_EQ(judge(found), Status::ok) << &doubt - doubts;
   }
 }
@@ -108,8 +108,8 @@ TEST(PlaceVerdict, ALargeMineAsksForALongerLead) {
 }
 
 TEST(PlaceVerdict, AScanOfLessOfATurnAsksForALongerLead) {
-  EXPECT_EQ(judge(one_pose(2.0), scan_of(kPi)), Status::ambiguous);
-  EXPECT_EQ(judge(one_pose(4.0), scan_of(kPi)), Status::ok);
+  EXPECT_EQ(judge(one_pose(6.0), scan_of(kPi)), Status::ambiguous);
+  EXPECT_EQ(judge(one_pose(12.0), scan_of(kPi)), Status::ok);
 }
 
 TEST(PlaceVerdict, TurnInSightCountsBearingsWithReturns) {
@@ -119,6 +119,10 @@ TEST(PlaceVerdict, TurnInSightCountsBearingsWithReturns) {
   LaserScan scan = scan_of(kTwoPi);
   for (std::size_t i = 0; i < 90; ++i) scan.ranges[i] = scan.max_range;
   EXPECT_NEAR(turn_in_sight(scan, scanner), 0.75, 0.02);
+  LaserScan sparse = scan_of(kTwoPi);
+  sparse.bearing_step = radians(12.0);
+  sparse.ranges.resize(30);
+  EXPECT_NEAR(turn_in_sight(sparse, scanner), 1.0, 0.01);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstddef>
@@ -13,11 +14,12 @@ namespace adit {
 /// Which squares of a plan and sectors of headings hold a pose: a hash table that keeps its memory.
 class PoseCells {
  public:
-  /// Forgets all; no more than so many are put in. Sectors are no narrower than a 128th of a turn.
+  /// Forgets all; no more than so many are put in. Sectors are as wide as a 127th of a turn at
+  /// least.
   void clear(std::size_t most, double cell_m, double sector_rad) {
     slots_.assign(std::bit_ceil(2 * most + 2), kFree);
     cell_m_ = cell_m;
-    sector_rad_ = sector_rad;
+    sector_rad_ = std::max(sector_rad, kTwoPi / 127.0);
   }
 
   /// False if its cell holds a pose already.

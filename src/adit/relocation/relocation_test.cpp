@@ -297,9 +297,50 @@ TEST(Relocator, LooksOnlyWhereItIsTold) {
   ASSERT_FALSE(near.poses.empty());
   EXPECT_TRUE(is_at(near.poses.front().pose, truth, 0.05, 0.01));
   const RelocationResult far = locate(map, index, scan, SearchArea{{2.0, 2.0}, 3.0});
+  EXPECT_FALSE(far.poses.empty());
   for (const RankedPose& pose : far.poses) {
     EXPECT_LT((pose.pose.translation() - Vector2d(2.0, 2.0)).norm(), 6.0);
   }
+}
+
+/// A first look so narrow that it takes one of many pillars for the only one, and a second.
+TEST(Relocator, LooksAgainWhereTheFirstLookLeavesADoubt) {
+  const LineMap map = LineMap::build(regular_plan(6));
+  const PlaceIndex index = PlaceIndex::build(map);
+  const LaserScan scan = scan_from(map, {57.0, 57.0, 0.3});
+  const ScannerModel model = scanner();
+  const MapError error = map_error();
+  RelocationOptions narrow;
+  narrow.fewest_candidates = narrow.candidates = 1;
+  const auto verdict = [&](double second_look_gap) {
+    narrow.second_look_gap = second_look_gap;
+    Relocator relocator(map, index);
+    return relocator.locate({scan, model, error, {}, {}}, narrow).verdict;
+  };
+  EXPECT_EQ(verdict(0.0), Status::ok) << "there is none";
+  EXPECT_EQ(verdict(100.0), Status::ok) << "one pose alone is settled";
+  EXPECT_EQ(verdict(1e9), Status::ambiguous);
+}
+
+TEST(Relocator, WidenedCountsStayWithinTheirType) {
+  RelocationOptions options;
+  options.rated_again = std::numeric_limits<int>::max() - 1;
+  EXPECT_GT(widened(options).rated_again, 0);
+  EXPECT_EQ(widened(RelocationOptions{}).moved, 2 * RelocationOptions{}.moved);
+}
+
+TEST(Relocator, AnswersAScanWithBearingsOfItsOwnAlike) {
+  const LineMap map = LineMap::build(irregular_plan());
+  const PlaceIndex index = PlaceIndex::build(map);
+  LaserScan scan = scan_from(map, {20.3, 18.2, 0.4});
+  const RelocationResult even = locate(map, index, scan);
+  std::vector<double> bearings;
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i) bearings.push_back(scan.bearing(i));
+  scan.bearings = bearings;
+  const RelocationResult own = locate(map, index, scan);
+  EXPECT_EQ(own.verdict, Status::ok);
+  ASSERT_FALSE(own.poses.empty());
+  EXPECT_TRUE(is_at(own.poses.front().pose, even.poses.front().pose, 1e-3, 1e-3));
 }
 
 TEST(Relocator, SaysLostWhereThereIsNothingToGoBy) {

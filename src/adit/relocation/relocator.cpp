@@ -68,13 +68,13 @@ const RelocationResult& Relocator::locate(const RelocationQuery& query,
   count_lines(query, options);
   const auto& [scan, scanner, map_error, motion, within] = query;
   look(query, search_.find(index_, scan, scanner, within, options), options, likelihood);
-  const std::size_t places = std::max(index_.size(), index_.corners().size());
-  result_.verdict = judge_place(result_, query, places, options, status);
+  result_.verdict = judge_place(result_, query, places(), options, status);
   const bool is_sure = result_.verdict == Status::ok || result_.verdict == Status::degraded;
-  if (is_sure && result_.gap >= options.second_look_gap) return result_;
+  const bool is_settled = is_sure && result_.gap >= options.second_look_gap;
+  if (is_settled || options.second_look_gap <= 0.0) return result_;
   const RelocationOptions more = widened(options);
   look(query, search_.find_again(index_, scan, scanner, within, more), more, likelihood);
-  result_.verdict = judge_place(result_, query, places, options, status);
+  result_.verdict = judge_place(result_, query, places(), options, status);
   return result_;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -20,8 +22,8 @@ namespace adit {
 ///
 /// The index chooses places whose view resembles the scan (a scan shorter than the plan may be
 /// something that stands there, one that is longer went through rock); likelihood and fit of all
-/// points decide. Where the first look leaves a doubt, a second one at twice as many places
-/// decides. Deterministic. Map and index must outlive it.
+/// points decide. Where the first look leaves a doubt, a second, wider one decides. Deterministic.
+/// Map and index must outlive it.
 class Relocator {
  public:
   Relocator(const LineMap& map, const PlaceIndex& index) : map_(map), index_(index) {}
@@ -31,6 +33,9 @@ class Relocator {
                                  const LikelihoodOptions& likelihood = {},
                                  const RefinementOptions& refinement = {},
                                  const StatusOptions& status = {});
+
+  /// How many places are compared: those of the index, or corners.
+  std::size_t places() const { return std::max(index_.size(), index_.corners().size()); }
 
  private:
   struct Hypothesis {

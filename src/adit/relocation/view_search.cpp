@@ -140,6 +140,22 @@ struct Minimum {
   }
 };
 
+constexpr std::uint8_t kHalfBin = 127;  // parts
+
+/// Of so many equal headings from the first one on: in their middle, or, of one alone, to the side
+/// of its better neighbour, as far as a parabola has it.
+Minimum minimum_of(std::uint32_t place, std::size_t first, std::size_t equal, int before, int after,
+                   std::uint16_t cost) {
+  int part = kHalfBin;
+  if (equal == 1) {
+    part += kHalfBin * (before - after) / std::max(1, before + after - 2 * cost);
+  } else if (equal % 2 == 0) {
+    part += kHalfBin;
+  }
+  const std::size_t middle = (first + (equal - 1) / 2) % kRangeBins;
+  return {cost, place, static_cast<std::uint8_t>(middle), static_cast<std::uint8_t>(part)};
+}
+
 // No sum of costs is higher: all bins at the largest cap both ways.
 constexpr std::size_t kMostCost = kRangeBins * 30 + 1;
 
@@ -236,14 +252,16 @@ void ViewSearch::compare(const PlaceIndex& index, const ScanCodes& scan,
     compare_all(index.codes(place), scan, caps, sums);
     for (std::size_t s = 0; s < kRangeBins; ++s) {
       const std::uint16_t before = sums[(s + kRangeBins - 1) % kRangeBins];
-      const std::uint16_t after = sums[(s + 1) % kRangeBins];
-      if (!(sums[s] < before && sums[s] <= after)) continue;
-      // To the side of the better neighbour, as far as a parabola has it.
-      const int bend = before + after - 2 * sums[s];
-      const int part = 127 + 127 * (before - after) / std::max(1, bend);
-      const Minimum minimum{sums[s], place, static_cast<std::uint8_t>(s),
-                            static_cast<std::uint8_t>(part)};
-      minima_.push_back(minimum.key());
+      if (!(sums[s] < before)) continue;
+      std::size_t equal = 1;
+      while (sums[(s + equal) % kRangeBins] == sums[s]) ++equal;
+      const std::uint16_t after = sums[(s + equal) % kRangeBins];
+      if (after < sums[s]) continue;
+      minima_.push_back(minimum_of(place, s, equal, before, after, sums[s]).key());
+    }
+    // No heading is better than another.
+    if (std::all_of(sums.begin(), sums.end(), [&](std::uint16_t sum) { return sum == sums[0]; })) {
+      minima_.push_back(Minimum{sums[0], place, 0, kHalfBin}.key());
     }
   }
 }

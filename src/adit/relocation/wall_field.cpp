@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace adit {
 namespace {
@@ -11,6 +12,7 @@ constexpr float kPiece = 2.0F;  // walls are drawn in pieces no longer than this
 
 // A plan with more squares than this has walls astray; the field covers none of it.
 constexpr double kMostSquares = 4.0e9;
+constexpr double kLongestSide = 1e6;  // m: single precision is a hand's breadth there
 
 float squared_distance(const WallField::Line& line, float x, float y) {
   const float dx = x - line.x;
@@ -21,36 +23,10 @@ float squared_distance(const WallField::Line& line, float x, float y) {
   return beyond * beyond + across * across;
 }
 
-}  // namespace
-
-WallField::WallField(const LineMap& map) {
-  if (map.empty()) return;
-  const Vector2d size = map.bounds().size() + Vector2d::Constant(4.0 * kReach);
-  const Vector2d squares = kPerMetre * size;
-  if (!(squares.x() * squares.y() < kMostSquares)) return;
-  origin_ = map.bounds().min - Vector2d::Constant(2.0 * kReach);
-  width_ = static_cast<float>(size.x());
-  height_ = static_cast<float>(size.y());
-  tile_columns_ = (static_cast<std::int32_t>(squares.x()) >> kTileBits) + 1;
-  const std::int32_t tile_rows = (static_cast<std::int32_t>(squares.y()) >> kTileBits) + 1;
-  tiles_.assign(static_cast<std::size_t>(tile_rows) * static_cast<std::size_t>(tile_columns_), 0);
-  cells_.emplace_back().fill(kNone);
-  offs_.emplace_back().fill(kFarOff);
-  for (const Wall& wall : map.walls()) {
-    const Segment& segment = wall.segment;
-    const Vector2d a = segment.a - origin_;
-    const double length = segment.length();
-    const Vector2d along = (segment.b - segment.a) / length;
-    lines_.push_back({static_cast<float>(a.x()), static_cast<float>(a.y()),
-                      static_cast<float>(along.x()), static_cast<float>(along.y()),
-                      static_cast<float>(length)});
-    draw(static_cast<std::int32_t>(lines_.size() - 1));
-  }
-}
-
-/// Offers a wall to all squares near it.
-void WallField::draw(std::int32_t line) {
-  const Line& wall = lines_[static_cast<std::size_t>(line)];
+/// Calls `each(column, row)` for the squares, so many a metre, around a wall and within reach of
+/// it; some come more than once.
+template <class Each>
+void for_each_square(const WallField::Line& wall, float per_metre, const Each& each) {
   const int pieces = 1 + static_cast<int>(wall.length / kPiece);
   const float step = wall.length / static_cast<float>(pieces);
   for (int piece = 0; piece < pieces; ++piece) {
@@ -59,17 +35,63 @@ void WallField::draw(std::int32_t line) {
       const float a = start + from * along;
       const float b = a + step * along;
       return std::array<std::int32_t, 2>{
-          static_cast<std::int32_t>((std::min(a, b) - kReach) * kPerMetre),
-          static_cast<std::int32_t>((std::max(a, b) + kReach) * kPerMetre)};
+          static_cast<std::int32_t>((std::min(a, b) - kReach) * per_metre),
+          static_cast<std::int32_t>((std::max(a, b) + kReach) * per_metre)};
     };
     const auto across = span(wall.x, wall.along_x);
     const auto up = span(wall.y, wall.along_y);
     for (std::int32_t row = up[0]; row <= up[1]; ++row) {
-      for (std::int32_t column = across[0]; column <= across[1]; ++column) {
-        offer(column, row, line);
-      }
+      for (std::int32_t column = across[0]; column <= across[1]; ++column) each(column, row);
     }
   }
+}
+
+}  // namespace
+
+WallField::WallField(const LineMap& map) {
+  if (map.empty()) return;
+  const Vector2d size = map.bounds().size() + Vector2d::Constant(4.0 * kReach);
+  const Vector2d squares = kPerMetre * size;
+  if (!(squares.x() * squares.y() < kMostSquares && size.maxCoeff() < kLongestSide)) return;
+  origin_ = map.bounds().min - Vector2d::Constant(2.0 * kReach);
+  width_ = static_cast<float>(size.x());
+  height_ = static_cast<float>(size.y());
+  tile_columns_ = (static_cast<std::int32_t>(squares.x()) >> kTileBits) + 1;
+  const std::int32_t tile_rows = (static_cast<std::int32_t>(squares.y()) >> kTileBits) + 1;
+  tiles_.assign(static_cast<std::size_t>(tile_rows) * static_cast<std::size_t>(tile_columns_), 0);
+  lines_.reserve(1 + map.walls().size());
+  for (const Wall& wall : map.walls()) {
+    const Segment& segment = wall.segment;
+    const Vector2d a = segment.a - origin_;
+    const double length = segment.length();
+    const Vector2d along = (segment.b - segment.a) / length;
+    lines_.push_back({static_cast<float>(a.x()), static_cast<float>(a.y()),
+                      static_cast<float>(along.x()), static_cast<float>(along.y()),
+                      static_cast<float>(length)});
+  }
+  lay_out_tiles();
+  for (std::size_t i = 1; i < lines_.size(); ++i) {
+    for_each_square(lines_[i], kPerMetre, [&](std::int32_t column, std::int32_t row) {
+      offer(column, row, static_cast<std::int32_t>(i));
+    });
+  }
+}
+
+/// Gives each tile that a wall comes near to its squares: all at once, for in a large plan they
+/// take gigabytes.
+void WallField::lay_out_tiles() {
+  for (const Line& line : std::span(lines_).subspan(1)) {
+    for_each_square(line, kPerMetre, [&](std::int32_t column, std::int32_t row) {
+      tiles_[tile_of(column, row)] = 1;
+    });
+  }
+  std::int32_t next = 1;
+  for (std::int32_t& tile : tiles_) {
+    if (tile != 0) tile = next++;
+  }
+  cells_.resize(static_cast<std::size_t>(next));
+  offs_.resize(static_cast<std::size_t>(next));
+  for (TileOffs& tile : offs_) tile.fill(kFarOff);
 }
 
 void WallField::offer(std::int32_t column, std::int32_t row, std::int32_t line) {
@@ -77,12 +99,7 @@ void WallField::offer(std::int32_t column, std::int32_t row, std::int32_t line) 
   const float y = (static_cast<float>(row) + 0.5F) / kPerMetre;
   const float squared = squared_distance(lines_[static_cast<std::size_t>(line)], x, y);
   if (squared > kReach * kReach) return;
-  std::int32_t& tile = tiles_[tile_of(column, row)];
-  if (tile == 0) {
-    tile = static_cast<std::int32_t>(cells_.size());
-    cells_.emplace_back().fill(kNone);
-    offs_.emplace_back().fill(kFarOff);
-  }
+  const std::int32_t tile = tiles_[tile_of(column, row)];
   std::int32_t& nearest = cells_[static_cast<std::size_t>(tile)][cell_of(column, row)];
   const bool is_nearer =
       nearest == kNone ||

@@ -91,7 +91,7 @@ class WallField {
   static std::size_t cell_of(std::int32_t column, std::int32_t row) {
     return static_cast<std::size_t>(((row & (kTile - 1)) << kTileBits) | (column & (kTile - 1)));
   }
-  void draw(std::int32_t line);
+  void lay_out_tiles();
   void offer(std::int32_t column, std::int32_t row, std::int32_t line);
 
   Vector2d origin_ = Vector2d::Zero();
