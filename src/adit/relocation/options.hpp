@@ -164,7 +164,7 @@ struct RelocationOptions {
   double apart_m = 1.0;
   double apart_rad = radians(5.0);
   double second_look_gap = 40.0;
-  double sure_gap = 0.5;
+  double sure_gap = 1.5;
   double sure_gap_per_through = 100.0;
   double sure_gap_per_missing = 20.0;
   double sure_gap_per_behind = 60.0;
@@ -172,7 +172,7 @@ struct RelocationOptions {
   int enough_lines = 7;
   double line_m = 1.0;
   double sure_gap_per_error = 8.0;
-  double sure_gap_per_evidence = 30.0;
+  double sure_gap_per_evidence = 200.0;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -281,9 +281,10 @@ struct RelocationOptions {
     field("sure_gap_per_error", self.sure_gap_per_error,
           "... where the plan errs as much as stated, for a larger error lets more poses agree by "
           "chance ...");
-    field("sure_gap_per_evidence", self.sure_gap_per_evidence,
-          "... and per share by which less is explained than of a scan of nothing but the map's "
-          "walls");
+    field(
+        "sure_gap_per_evidence", self.sure_gap_per_evidence,
+        "... and for the square of the share by which less is explained than of a scan of nothing "
+        "but the map's walls");
   }
 };
 

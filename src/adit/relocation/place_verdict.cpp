@@ -22,13 +22,14 @@ double asked_lead(const RelocationResult& found, const RelocationQuery& query, s
                   const RelocationOptions& options) {
   const BeamShares& shares = found.shares;
   const FitQuality& quality = found.poses.front().quality;
+  const double unexplained = std::max(0.0, 1.0 - quality.evidence_ratio);
   const int lines_short = std::max(0, options.enough_lines - found.lines);
   return options.sure_gap + lead_of_size(places) + options.sure_gap_per_line * lines_short +
          options.sure_gap_per_through * (shares.through + shares.unmapped) +
          options.sure_gap_per_behind * quality.behind_ratio +
          options.sure_gap_per_missing * shares.missing +
          options.sure_gap_per_error * error_ratio(found.map_error, query.map_error) +
-         options.sure_gap_per_evidence * std::max(0.0, 1.0 - quality.evidence_ratio);
+         options.sure_gap_per_evidence * unexplained * unexplained;
 }
 
 /// What all poses weigh that are not the best one. At one place, but turned by more than what would

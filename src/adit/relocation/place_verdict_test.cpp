@@ -50,7 +50,7 @@ Status judge(const RelocationResult& found, const LaserScan& scan = scan_of(kTwo
 }
 
 TEST(PlaceVerdict, OnePoseThatLeadsIsThePlace) {
-  EXPECT_EQ(judge(one_pose(2.0)), Status::ok);
+  EXPECT_EQ(judge(one_pose(4.0)), Status::ok);
   EXPECT_EQ(judge(one_pose(1.2)), Status::ambiguous);
 }
 
@@ -87,13 +87,13 @@ TEST(PlaceVerdict, WhatSpeaksForChanceAsksForALongerLead) {
       [](RelocationResult& found) { found.shares.unmapped = 0.03; },
       [](RelocationResult& found) { found.shares.missing = 0.15; },
       [](RelocationResult& found) { found.poses.front().quality.behind_ratio = 0.05; },
-      [](RelocationResult& found) { found.poses.front().quality.evidence_ratio = 0.9; },
+      [](RelocationResult& found) { found.poses.front().quality.evidence_ratio = 0.85; },
       [](RelocationResult& found) {
         found.map_error = {0.05, 2.0, 0.0};
       },
   };
   for (const auto& doubt : doubts) {
-    RelocationResult found = one_pose(2.0);
+    RelocationResult found = one_pose(4.0);
     doubt(found);
     EXPECT_EQ(judge(found), Status::ambiguous) << &doubt - doubts;
     found.gap = 12.0;
@@ -109,7 +109,7 @@ TEST(PlaceVerdict, ALargeMineAsksForALongerLead) {
 
 TEST(PlaceVerdict, AScanOfLessOfATurnAsksForALongerLead) {
   EXPECT_EQ(judge(one_pose(6.0), scan_of(kPi)), Status::ambiguous);
-  EXPECT_EQ(judge(one_pose(12.0), scan_of(kPi)), Status::ok);
+  EXPECT_EQ(judge(one_pose(20.0), scan_of(kPi)), Status::ok);
 }
 
 TEST(PlaceVerdict, TurnInSightCountsBearingsWithReturns) {

@@ -237,7 +237,7 @@ TEST(Relocator, WhatSpeaksForChanceAsksForALongerLead) {
   strict.sure_gap_per_through = 5000.0;
   EXPECT_EQ(verdict(strict), Status::ambiguous);
   strict = lenient;
-  strict.sure_gap_per_evidence = 5000.0;
+  strict.sure_gap_per_evidence = 1e6;
   EXPECT_EQ(verdict(strict), Status::ambiguous);
 }
 
