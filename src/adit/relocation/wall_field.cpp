@@ -78,16 +78,14 @@ WallField::WallField(const LineMap& map) {
 }
 
 /// Gives each tile that a wall comes near to its squares: all at once, for in a large plan they
-/// take gigabytes.
+/// take gigabytes, and in the order of the walls, so that near ones lie near in memory.
 void WallField::lay_out_tiles() {
+  std::int32_t next = 1;
   for (const Line& line : std::span(lines_).subspan(1)) {
     for_each_square(line, kPerMetre, [&](std::int32_t column, std::int32_t row) {
-      tiles_[tile_of(column, row)] = 1;
+      std::int32_t& tile = tiles_[tile_of(column, row)];
+      if (tile == 0) tile = next++;
     });
-  }
-  std::int32_t next = 1;
-  for (std::int32_t& tile : tiles_) {
-    if (tile != 0) tile = next++;
   }
   cells_.resize(static_cast<std::size_t>(next));
   offs_.resize(static_cast<std::size_t>(next));
