@@ -36,24 +36,12 @@ class WallField {
   /// The number of the wall nearest to the middle of the point's square; `kNone` where all are
   /// farther than about a metre and a half. Relative to the origin. Without a branch that depends
   /// on what it finds, so that many points are looked up at once.
-  std::int32_t nearest(float x, float y) const {
-    if (!(x >= 0.0F && y >= 0.0F && x < width_ && y < height_)) return kNone;
-    const auto column = static_cast<std::int32_t>(x * kPerMetre);
-    const auto row = static_cast<std::int32_t>(y * kPerMetre);
-    const std::int32_t tile = tiles_[tile_of(column, row)];
-    return cells_[static_cast<std::size_t>(tile)][cell_of(column, row)];
-  }
+  std::int32_t nearest(float x, float y) const { return look_up(cells_, x, y, kNone); }
   static constexpr std::int32_t kNone = 0;
 
   /// How far the middle of the point's square is from that wall, in steps of `kOffStep`; no more
   /// than the last code, and that where none is near. A fourth of the memory of `nearest` to read.
-  std::uint8_t off_code(float x, float y) const {
-    if (!(x >= 0.0F && y >= 0.0F && x < width_ && y < height_)) return kFarOff;
-    const auto column = static_cast<std::int32_t>(x * kPerMetre);
-    const auto row = static_cast<std::int32_t>(y * kPerMetre);
-    const std::int32_t tile = tiles_[tile_of(column, row)];
-    return offs_[static_cast<std::size_t>(tile)][cell_of(column, row)];
-  }
+  std::uint8_t off_code(float x, float y) const { return look_up(offs_, x, y, kFarOff); }
   static constexpr float kOffStep = 1.0F / 128.0F;  // m
   static constexpr std::uint8_t kFarOff = 255;
 
@@ -83,6 +71,16 @@ class WallField {
   static constexpr std::int32_t kTile = 1 << kTileBits;
   using Tile = std::array<std::int32_t, kTile * kTile>;
   using TileOffs = std::array<std::uint8_t, kTile * kTile>;
+
+  /// What squares hold at a point; `outside` off the plan.
+  template <class Squares, class Value>
+  Value look_up(const Squares& squares, float x, float y, Value outside) const {
+    if (!(x >= 0.0F && y >= 0.0F && x < width_ && y < height_)) return outside;
+    const auto column = static_cast<std::int32_t>(x * kPerMetre);
+    const auto row = static_cast<std::int32_t>(y * kPerMetre);
+    const std::int32_t tile = tiles_[tile_of(column, row)];
+    return squares[static_cast<std::size_t>(tile)][cell_of(column, row)];
+  }
 
   std::size_t tile_of(std::int32_t column, std::int32_t row) const {
     return static_cast<std::size_t>(row >> kTileBits) * static_cast<std::size_t>(tile_columns_) +
