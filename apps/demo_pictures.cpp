@@ -44,18 +44,19 @@ Result<void> draw_demo_visibility(const std::filesystem::path& folder, const Lin
 Result<void> draw_demo_turn(const std::filesystem::path& folder, const LineMap& map,
                             const Localizer& localizer, const LaserScan& scan) {
   const std::vector<Segment> plan = plan_of(map);
-  const Vector2d observer = (localizer.predicted().pose * scan.vehicle_from_laser).translation();
+  const Turn turn = localizer.last_turn();
+  const Vector2d observer = (turn.predicted.pose * scan.vehicle_from_laser).translation();
   MatchView match;
   match.plan = plan;
-  match.model = &localizer.model_features();
+  match.model = &turn.model_features;
   match.map_from_model = {observer.x(), observer.y(), 0.0};
-  match.sensed = &localizer.sensed_features();
+  match.sensed = &turn.sensed_features;
   match.map_from_sensed = localizer.estimate().pose * scan.vehicle_from_laser;
   match.pairs = localizer.estimate().pairs;
   const ScanView view{&scan, match.sensed, match.map_from_sensed, {}};
-  const double sigma = std::sqrt(localizer.extractor().points().noise().beam_variance);
+  const double sigma = std::sqrt(turn.extractor.points().noise().beam_variance);
   const CornerOperatorView work =
-      slide_corner_operator(longest_piece(localizer.extractor().points()), 1.5, sigma);
+      slide_corner_operator(longest_piece(turn.extractor.points()), 1.5, sigma);
   const auto file = [&](const char* name) { return (folder / name).string(); };
   return draw_corner_operator(file("fig05-corner-operator.png"), work)
       .and_then([&] { return draw_scan(file("fig10-scan-with-features.png"), view); })

@@ -134,14 +134,15 @@ int run_plot_match(const PlotArguments& arguments) {
   localizer.start(*pose);
   for (const StampedPose& message : scan->odometry) localizer.add_odometry(message);
   const Estimate& estimate = localizer.update(scan->scan.scan, scan->scan.odom_from_vehicle);
+  const Turn turn = localizer.last_turn();
   const Pose2 mounting = scan->scan.scan.vehicle_from_laser;
-  const Vector2d observer = (localizer.predicted().pose * mounting).translation();
+  const Vector2d observer = (turn.predicted.pose * mounting).translation();
   const std::vector<Segment> plan = plan_of(inputs->map);
   MatchView view;
   view.plan = plan;
-  view.model = &localizer.model_features();
+  view.model = &turn.model_features;
   view.map_from_model = {observer.x(), observer.y(), 0.0};
-  view.sensed = &localizer.sensed_features();
+  view.sensed = &turn.sensed_features;
   view.map_from_sensed = estimate.pose * mounting;
   view.pairs = estimate.pairs;
   fmt::print("{}: x {:.3f} m, y {:.3f} m, heading {:.2f} degrees, {} pairs\n",

@@ -49,12 +49,12 @@ Replay replay(const Log& log, const LineMap& map, const LocalizerSettings& setti
   Progress progress("localizing", log.scans.size());
   for (const LogScan& entry : log.scans) {
     result.rows.push_back(replayer.add(entry));
-    result.timings.push_back(localizer.timings());
-    result.search_calls.push_back(localizer.match().calls);
+    result.timings.push_back(localizer.last_turn().timings);
+    result.search_calls.push_back(localizer.last_turn().match.calls);
     progress.advance();
   }
-  result.map_error = localizer.map_error();
-  result.stamps = localizer.stamp_counts();
+  result.map_error = localizer.last_turn().map_error;
+  result.stamps = localizer.last_turn().stamps;
   return result;
 }
 

@@ -17,13 +17,15 @@ void estimate_pose(benchmark::State& state) {
   Localizer localizer(map, settings);
   localizer.start(recording.first_guess.pose, recording.first_guess.covariance);
   localizer.update(recording.scans[0], recording.odometry[0]);
-  const Pose2 start{0.0, 0.0, localizer.predicted().pose.theta};
+  const Pose2 start{0.0, 0.0, localizer.last_turn().predicted.pose.theta};
   FeatureEstimator estimator;
   const auto fit = [&] {
-    return estimator.fit(localizer.sensed_features(), localizer.model_features(),
-                         localizer.match().pairs, start, settings.estimation);
+    return estimator.fit(localizer.last_turn().sensed_features,
+                         localizer.last_turn().model_features, localizer.last_turn().match.pairs,
+                         start, settings.estimation);
   };
-  const Vector2d position = localizer.predicted().pose.translation() + fit().pose.translation();
+  const Vector2d position =
+      localizer.last_turn().predicted.pose.translation() + fit().pose.translation();
   if ((position - recording.truth[0].pose.translation()).norm() > 0.05) {
     state.SkipWithError("the estimate is off by more than 5 cm");
     return;
@@ -79,7 +81,7 @@ void drive_on(benchmark::State& state, const World& world, const ScannerSpec& sp
     const std::size_t k = i++ % recording.scans.size();
     if (k == 0) localizer.start(recording.first_guess.pose, recording.first_guess.covariance);
     benchmark::DoNotOptimize(localizer.update(recording.scans[k], recording.odometry[k]).pose.x);
-    in_sight += localizer.refiner().shares().size();
+    in_sight += localizer.last_turn().walls.size();
   }
   state.counters["segments_in_sight"] =
       static_cast<double>(in_sight) / static_cast<double>(state.iterations());

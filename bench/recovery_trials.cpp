@@ -198,8 +198,8 @@ class Mine {
       return (pose.translation() - truth.translation()).norm();
     };
     fmt::print("{:6.1f} m  {:<9} {:6.1f} m off  evidence {:.2f}", metres, to_string(e.status),
-               off(e.pose), quality_of(localizer.scan_fit()).evidence_ratio);
-    const auto& carried = localizer.hypotheses().all();
+               off(e.pose), quality_of(localizer.last_turn().scan_fit).evidence_ratio);
+    const auto& carried = localizer.last_turn().hypotheses.all();
     if (!carried.empty()) {
       const auto is_true = [&](const auto& h) { return off(h.tracker.estimate().pose) < kRight; };
       const auto known = std::find_if(carried.begin(), carried.end(), is_true);

@@ -92,7 +92,7 @@ void track(const TrialRun& run, Recorder& recorder) {
     if (run.feeds_wheels) wheels.feed(scan.stamp, localizer);
     const Estimate& estimate =
         run.feeds_wheels ? localizer.update(scan) : localizer.update(scan, recording.odometry[i]);
-    recorder.add(i, estimate, localizer.timings().total());
+    recorder.add(i, estimate, localizer.last_turn().timings.total());
   }
 }
 
@@ -110,7 +110,7 @@ void locate_each(const TrialRun& run, Fault fault, std::uint64_t seed, Recorder&
     Localizer localizer(run.map, run.scene.settings);
     localizer.start(guess.pose, guess.covariance);
     const Estimate& estimate = localizer.update(run.recording.scans[i]);
-    recorder.add(i, estimate, localizer.timings().total());
+    recorder.add(i, estimate, localizer.last_turn().timings.total());
   }
 }
 

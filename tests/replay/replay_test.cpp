@@ -105,9 +105,9 @@ TEST_F(Drive, SaysWhatWasLearnt) {
   std::size_t fed = 0;
   live(localizer, fed);
   const Replay result = replay(log_, map_, settings_, start(), nullptr);
-  EXPECT_EQ(result.map_error.offset_sigma_m, localizer.map_error().offset_sigma_m);
-  EXPECT_EQ(result.map_error.length_m, localizer.map_error().length_m);
-  EXPECT_EQ(result.map_error.roughness_sigma_m, localizer.map_error().roughness_sigma_m);
+  EXPECT_EQ(result.map_error.offset_sigma_m, localizer.last_turn().map_error.offset_sigma_m);
+  EXPECT_EQ(result.map_error.length_m, localizer.last_turn().map_error.length_m);
+  EXPECT_EQ(result.map_error.roughness_sigma_m, localizer.last_turn().map_error.roughness_sigma_m);
   EXPECT_LT(result.map_error.sigma_m(), 0.05);
 }
 

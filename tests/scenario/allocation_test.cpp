@@ -94,7 +94,7 @@ TEST(Allocation, ScansTakenOnTheMoveAllocateNothing) {
       localizer.add_odometry(recording.wheels[fed]);
     }
     localizer.update(scan);
-    corrected += localizer.scan_fit().correction.halves[0].vector().isZero() ? 0 : 1;
+    corrected += localizer.last_turn().scan_fit.correction.halves[0].vector().isZero() ? 0 : 1;
   };
   expect_none(allocations_of(localizer, recording.first_guess, recording.scans.size(), turn));
   EXPECT_GT(fed, 9 * recording.scans.size());        // ten for each scan
@@ -139,11 +139,11 @@ TEST(Allocation, LearningTheMapsErrorAllocatesNothing) {
   settings.map = MapErrorOptions{};
   settings.map.is_stated = false;
   Localizer localizer(map, settings);
-  const double unseen = localizer.map_error().sigma_m();
+  const double unseen = localizer.last_turn().map_error.sigma_m();
   std::vector<long> counts = allocations_of(recording, localizer);
   counts.erase(counts.begin());  // a start forgets what was learnt, and with it one buffer
   expect_none(counts);
-  EXPECT_LT(localizer.map_error().sigma_m(), 0.7 * unseen);  // the plan is exact
+  EXPECT_LT(localizer.last_turn().map_error.sigma_m(), 0.7 * unseen);  // the plan is exact
 }
 
 // Buffers that one scan has grown serve the next, though it shows other features.

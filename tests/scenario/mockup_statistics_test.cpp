@@ -43,7 +43,7 @@ Outcome localise(const LocalizerSettings& settings) {
       const Estimate& e = localizer.update(recording.scans[i], recording.odometry[i]);
       estimates.push_back({e.stamp + offset, e.pose, e.covariance, e.status, e.protection_m});
       truth.push_back({recording.truth[i].stamp + offset, recording.truth[i].pose});
-      outcome.most_calls = std::max(outcome.most_calls, localizer.match().calls);
+      outcome.most_calls = std::max(outcome.most_calls, localizer.last_turn().match.calls);
     }
   }
   outcome.report = evaluate({.estimates = estimates, .truth = truth, .relations = {}});

@@ -129,7 +129,7 @@ TEST(Trust, AScanThatComesTwiceSaysNothingNew) {
     EXPECT_EQ(again.pose.vector(), once.pose.vector());
     EXPECT_EQ(again.covariance, once.covariance);
   }
-  EXPECT_EQ(localizer.stamp_counts().duplicates, 5);
+  EXPECT_EQ(localizer.last_turn().stamps.duplicates, 5);
 }
 
 TEST(Trust, LateStampsGapsAndJumpsAreCounted) {
@@ -144,9 +144,9 @@ TEST(Trust, LateStampsGapsAndJumpsAreCounted) {
     EXPECT_EQ(e.status, Status::ok) << i;
     EXPECT_LT(position_error(e, run.recording.truth[i].pose), 0.05) << i;
   }
-  EXPECT_EQ(localizer.stamp_counts().late, 1);
-  EXPECT_EQ(localizer.stamp_counts().gaps, 1);
-  EXPECT_EQ(localizer.stamp_counts().jumps, 1);
+  EXPECT_EQ(localizer.last_turn().stamps.late, 1);
+  EXPECT_EQ(localizer.last_turn().stamps.gaps, 1);
+  EXPECT_EQ(localizer.last_turn().stamps.jumps, 1);
 }
 
 // A scanner ahead and one astern, of other noise, with stamps of their own.

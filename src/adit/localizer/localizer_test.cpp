@@ -209,7 +209,7 @@ TEST_F(LocalizerTest, FeaturesAreMatchedOnTheWayWhereThePlanHasWallsTwice) {
     int count = 0;
     for (std::size_t i = 0; i < drive.scans.size(); ++i) {
       EXPECT_EQ(localizer.update(drive.scans[i], drive.odometry[i]).status, Status::ok);
-      count += !localizer.match().pairs.empty();
+      count += !localizer.last_turn().match.pairs.empty();
     }
     return count;
   };

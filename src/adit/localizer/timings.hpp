@@ -34,4 +34,19 @@ class Stopwatch {
   Clock::time_point start_;
 };
 
+/// Adds the time since the last call, or its making, to one sum after the other.
+class LapTimer {
+ public:
+  void add_to(double& seconds) {
+    const Clock::time_point now = Clock::now();
+    seconds += std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+  }
+  void skip() { last_ = Clock::now(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point last_ = Clock::now();
+};
+
 }  // namespace adit

@@ -1,0 +1,31 @@
+#include "adit/localizer/mine_search.hpp"
+
+#include <algorithm>
+
+namespace adit {
+
+void MineSearch::reset() {
+  finder_.wait_and_drop();
+  schedule_ = doubts_ = SearchSchedule{};
+}
+
+void MineSearch::begin(const RelocationQuery& query, bool is_doubt, double explained) {
+  finder_.begin(query, finder_options());
+  schedule_.begin(settings_.recovery);
+  is_doubt_ = is_doubt;
+  explained_ = explained;
+  since_begun_.start({});
+}
+
+PlaceFinderOptions MineSearch::finder_options() const {
+  RelocationOptions relocation = settings_.relocation;
+  for (int* most : {&relocation.listed, &relocation.refined, &relocation.fitted_again,
+                    &relocation.rated_again}) {
+    *most = std::max(*most, settings_.recovery.most_poses);
+  }
+  relocation.second_look_gap = 0.0;  // one look, which is thorough, and the way decides
+  return {settings_.places, relocation, settings_.likelihood, settings_.refinement,
+          settings_.status};
+}
+
+}  // namespace adit
