@@ -148,6 +148,7 @@ BeamSummary BeamClassifier::summary(std::span<const BeamResidual> beams) const {
       continue;
     }
     const double weight = on_wall_[static_cast<Eigen::Index>(k)];
+    summary.counts.mapped += 1.0;
     summary.counts.wall += weight;
     elsewhere[beams[k].residual < 0.0 ? 1 : 0] += 1.0 - weight;
     // Of the beams that would tell a wall from something else.

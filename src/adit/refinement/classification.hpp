@@ -16,7 +16,8 @@ struct BeamCounts {
   double no_return = 0.0;  ///< nothing that came back
   double between = 0.0;    ///< of those on the wall, any of several walls that stand close
   double unmapped = 0.0;   ///< something where the map has nothing at all
-  double returns() const { return wall + before + behind + unmapped; }
+  double mapped = 0.0;     ///< wall, before and behind together: returns, counted one by one
+  double returns() const { return mapped + unmapped; }
 };
 
 /// What a scan came to, once its beams are classified.
