@@ -13,7 +13,7 @@ double distance_between(const Segment& s, const Segment& t);
 /// The vehicle's way as segments; a pose far from the next one stands for itself.
 std::vector<Segment> way_of(std::span<const Pose2> path);
 
-/// Whether all of `s` is at least `clearance` (m) from every link of the way.
+/// Whether all of `s` is at least `clearance` (m) from every link of a way as `way_of` makes it.
 bool is_clear_of(std::span<const Segment> way, const Segment& s, double clearance);
 
 }  // namespace adit
