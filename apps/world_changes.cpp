@@ -86,6 +86,11 @@ Result<double> change_world(const SimulateArguments& arguments, World& world) {
   }
   if (!arguments.off_plan.empty()) {
     const std::vector<double>& circle = arguments.off_plan;
+    const bool is_finite = std::all_of(circle.begin(), circle.end(),
+                                       [](double value) { return std::isfinite(value); });
+    if (!is_finite || circle[2] <= 0.0) {
+      return fail("--off-plan takes x,y,radius in metres, the radius above zero");
+    }
     world = off_plan(std::move(world), {circle[0], circle[1]}, circle[2]);
     if (world.plan.empty()) return fail("--off-plan leaves nothing of the plan");
   }
