@@ -46,7 +46,7 @@ class ScanMotion {
   /// covariance is in that one's axes.
   PoseWithCovariance predict(const PoseWithCovariance& last_from_vehicle) const;
 
-  /// Lays a scan, taken at one stamp, near a predicted frame_from_vehicle.
+  /// Lays a scan, taken at one stamp, near a predicted frame_from_vehicle, which is finite.
   ScanMove lay(const LaserScan& scan, const ScannerModel& scanner,
                const PoseWithCovariance& predicted);
 
