@@ -6,7 +6,7 @@
 namespace adit {
 namespace {
 
-double two_lines(const ScanPoints& points, Stretch s, std::size_t cut) {
+double two_lines(const ScanPoints& points, ScanStretch s, std::size_t cut) {
   return points.chi_square(s.begin, cut) + points.chi_square(cut, s.end);
 }
 
@@ -18,11 +18,12 @@ double squared_distance(const ScanPoints& p, std::size_t i, std::size_t j) {
 
 }  // namespace
 
-bool is_straight(const ScanPoints& points, Stretch s, double sigmas) {
+bool is_straight(const ScanPoints& points, ScanStretch s, double sigmas) {
   return points.is_straight(s.begin, s.end, sigmas);
 }
 
-BestCut descend(const ScanPoints& points, Stretch s, std::size_t start, std::size_t min_points) {
+BestCut descend(const ScanPoints& points, ScanStretch s, std::size_t start,
+                std::size_t min_points) {
   const std::size_t low = s.begin + min_points;
   const std::size_t high = s.end >= min_points ? s.end - min_points : 0;
   if (low > high) return {start, 0.0};
@@ -46,7 +47,7 @@ BestCut descend(const ScanPoints& points, Stretch s, std::size_t start, std::siz
   return {cut, points.chi_square(s.begin, s.end) - best};
 }
 
-BestCut search(const ScanPoints& points, Stretch s, std::size_t min_points) {
+BestCut search(const ScanPoints& points, ScanStretch s, std::size_t min_points) {
   if (s.size() < 2 * min_points) return {s.begin, 0.0};
   const std::size_t stride = std::max<std::size_t>(1, s.size() / 32);
   BestCut best{s.begin + min_points, -1.0};
@@ -61,8 +62,9 @@ BestCut search(const ScanPoints& points, Stretch s, std::size_t min_points) {
   return descend(points, s, best.cut, min_points);
 }
 
-void CornerOperator::find(const ScanPoints& points, Stretch piece, const std::vector<double>& sizes,
-                          const CornerDecision& decision, std::vector<std::size_t>& cuts) {
+void CornerOperator::find(const ScanPoints& points, ScanStretch piece,
+                          const std::vector<double>& sizes, const CornerDecision& decision,
+                          std::vector<std::size_t>& cuts) {
   accepted_.clear();
   settled_.assign(points.size(), 0);
   for (const double size : sizes) {
@@ -76,7 +78,7 @@ void CornerOperator::find(const ScanPoints& points, Stretch piece, const std::ve
   }
 }
 
-void CornerOperator::slide(const ScanPoints& points, Stretch piece, double size,
+void CornerOperator::slide(const ScanPoints& points, ScanStretch piece, double size,
                            const CornerDecision& decision) {
   responses_.clear();
   const double squared_size = size * size;
@@ -108,7 +110,7 @@ void CornerOperator::slide(const ScanPoints& points, Stretch piece, double size,
 }
 
 /// One position of the operator. A window that one line explains well hides no smaller corner.
-void CornerOperator::apply(const ScanPoints& points, Stretch window, std::size_t at) {
+void CornerOperator::apply(const ScanPoints& points, ScanStretch window, std::size_t at) {
   if (is_straight(points, window, 1.0)) {
     settle(window);
     return;
@@ -123,7 +125,7 @@ bool CornerOperator::is_taken(std::size_t point) const {
   });
 }
 
-void CornerOperator::settle(Stretch window) {
+void CornerOperator::settle(ScanStretch window) {
   std::fill(settled_.begin() + static_cast<std::ptrdiff_t>(window.begin),
             settled_.begin() + static_cast<std::ptrdiff_t>(window.end), char{1});
 }
@@ -134,7 +136,7 @@ void CornerOperator::accept_peaks(const ScanPoints& points, const CornerDecision
     if (here.gain < decision.chi_square) continue;
     if (k > 0 && responses_[k - 1].gain > here.gain) continue;
     if (k + 1 < responses_.size() && responses_[k + 1].gain >= here.gain) continue;
-    const Stretch window{here.arm_begin, here.arm_end};
+    const ScanStretch window{here.arm_begin, here.arm_end};
     const BestCut best = descend(points, window, here.point, decision.min_points);
     const bool fits = is_straight(points, {window.begin, best.cut}, decision.straight_sigmas) &&
                       is_straight(points, {best.cut, window.end}, decision.straight_sigmas);

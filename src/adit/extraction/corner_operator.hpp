@@ -8,7 +8,7 @@
 namespace adit {
 
 /// A straight stretch of the scan: the points [begin, end).
-struct Stretch {
+struct ScanStretch {
   std::size_t begin = 0;
   std::size_t end = 0;
   std::size_t size() const { return end - begin; }
@@ -39,13 +39,14 @@ class CornerOperator {
 
   /// Appends the corners of a piece as cut positions (a cut at i lies between points i - 1 and i),
   /// ascending. `sizes` are the arms in metres, largest first.
-  void find(const ScanPoints& points, Stretch piece, const std::vector<double>& sizes,
+  void find(const ScanPoints& points, ScanStretch piece, const std::vector<double>& sizes,
             const CornerDecision& decision, std::vector<std::size_t>& cuts);
 
  private:
-  void slide(const ScanPoints& points, Stretch piece, double size, const CornerDecision& decision);
-  void apply(const ScanPoints& points, Stretch window, std::size_t at);
-  void settle(Stretch window);
+  void slide(const ScanPoints& points, ScanStretch piece, double size,
+             const CornerDecision& decision);
+  void apply(const ScanPoints& points, ScanStretch window, std::size_t at);
+  void settle(ScanStretch window);
   bool is_taken(std::size_t point) const;
   void accept_peaks(const ScanPoints& points, const CornerDecision& decision);
 
@@ -55,7 +56,7 @@ class CornerOperator {
 };
 
 /// Whether a stretch is straight within noise.
-bool is_straight(const ScanPoints& points, Stretch stretch, double sigmas);
+bool is_straight(const ScanPoints& points, ScanStretch stretch, double sigmas);
 
 /// The cut in (begin + min_points, end - min_points) that two lines explain best, found by descent
 /// from `start`, and what they gain over one line.
@@ -63,10 +64,10 @@ struct BestCut {
   std::size_t cut = 0;
   double gain = 0.0;
 };
-BestCut descend(const ScanPoints& points, Stretch stretch, std::size_t start,
+BestCut descend(const ScanPoints& points, ScanStretch stretch, std::size_t start,
                 std::size_t min_points);
 
 /// The same over all cuts of the stretch.
-BestCut search(const ScanPoints& points, Stretch stretch, std::size_t min_points);
+BestCut search(const ScanPoints& points, ScanStretch stretch, std::size_t min_points);
 
 }  // namespace adit

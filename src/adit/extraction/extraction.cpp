@@ -47,7 +47,7 @@ void Extractor::cut_into_stretches(const ExtractionOptions& options) {
   piece_.clear();
   const std::vector<ScanPoints::Piece>& pieces = points_.pieces();
   for (std::size_t p = 0; p < pieces.size(); ++p) {
-    const Stretch whole{pieces[p].begin, pieces[p].end};
+    const ScanStretch whole{pieces[p].begin, pieces[p].end};
     if (static_cast<int>(whole.size()) < least_points(options)) continue;
     cuts_.clear();
     if (!is_straight(points_, whole, options.straight_sigmas)) {
@@ -132,7 +132,7 @@ bool Extractor::add_corner(std::size_t stretch, std::size_t next,
 /// Adds the occluding corner at one end of a stretch's line, if the view goes on behind it there.
 void Extractor::add_edge(std::size_t stretch, int arm) {
   const bool at_end = arm == 0;
-  const Stretch& points = stretches_[stretch];
+  const ScanStretch& points = stretches_[stretch];
   const std::size_t n = points_.size();
   const std::size_t last = at_end ? points.end - 1 : points.begin;
   const int step = at_end ? 1 : -1;

@@ -76,7 +76,7 @@ class Extractor {
   CornerOperator operator_;
   std::vector<double> sizes_;
   std::vector<std::size_t> cuts_;
-  std::vector<Stretch> stretches_;
+  std::vector<ScanStretch> stretches_;
   std::vector<std::size_t> piece_;   // of each stretch
   std::vector<int> line_;            // of each stretch, or -1
   std::vector<char> begins_joined_;  // whether the stretch's line begins in a corner

@@ -7,13 +7,13 @@ namespace {
 
 /// A run of points that stands off the line of its stretch, such as a column before a wall.
 struct Bump {
-  Stretch points;
+  ScanStretch points;
   double gain = 0.0;  ///< chi-square that three lines save over one
 };
 
 /// The run that stands off most. One cut, which leaves the run with one of its neighbours, does not
 /// show it; two at once do.
-Bump strongest_bump(const ScanPoints& points, Stretch s, std::size_t min_points) {
+Bump strongest_bump(const ScanPoints& points, ScanStretch s, std::size_t min_points) {
   const LineFit line = fit_line(points.moments(s.begin, s.end));
   const Vector2d normal = perpendicular(line.direction);
   const double distance = normal.dot(line.centroid);
@@ -37,20 +37,20 @@ Bump strongest_bump(const ScanPoints& points, Stretch s, std::size_t min_points)
   return best;
 }
 
-void cut_at(std::size_t index, std::size_t at, std::vector<Stretch>& stretches) {
-  const Stretch whole = stretches[index];
+void cut_at(std::size_t index, std::size_t at, std::vector<ScanStretch>& stretches) {
+  const ScanStretch whole = stretches[index];
   if (at <= whole.begin || at >= whole.end) return;
   stretches[index].end = at;
   stretches.insert(stretches.begin() + static_cast<std::ptrdiff_t>(index) + 1,
-                   Stretch{at, whole.end});
+                   ScanStretch{at, whole.end});
 }
 
 /// Cuts what is not straight while lines of their own gain enough for its parts; the new stretches
 /// take its place.
 void split(const ScanPoints& points, std::size_t index, const CornerDecision& decision,
-           std::vector<Stretch>& stretches) {
+           std::vector<ScanStretch>& stretches) {
   while (index < stretches.size()) {
-    const Stretch whole = stretches[index];
+    const ScanStretch whole = stretches[index];
     const bool straight = is_straight(points, whole, decision.straight_sigmas);
     const BestCut best = straight ? BestCut{} : search(points, whole, 2);
     const Bump bump = straight ? Bump{} : strongest_bump(points, whole, decision.min_points);
@@ -66,14 +66,14 @@ void split(const ScanPoints& points, std::size_t index, const CornerDecision& de
   }
 }
 
-double joining_costs(const ScanPoints& points, const Stretch& a, const Stretch& b) {
+double joining_costs(const ScanPoints& points, const ScanStretch& a, const ScanStretch& b) {
   return points.chi_square(a.begin, b.end) - points.chi_square(a.begin, a.end) -
          points.chi_square(b.begin, b.end);
 }
 
 /// Joins neighbours, the most alike first, while one line explains both.
 void merge(const ScanPoints& points, std::size_t first, const CornerDecision& decision,
-           std::vector<Stretch>& stretches) {
+           std::vector<ScanStretch>& stretches) {
   while (stretches.size() > first + 1) {
     std::size_t cheapest = first;
     double least = decision.chi_square;
@@ -90,9 +90,9 @@ void merge(const ScanPoints& points, std::size_t first, const CornerDecision& de
   }
 }
 
-void move_cuts(const ScanPoints& points, std::size_t first, std::vector<Stretch>& stretches) {
+void move_cuts(const ScanPoints& points, std::size_t first, std::vector<ScanStretch>& stretches) {
   for (std::size_t i = first; i + 1 < stretches.size(); ++i) {
-    const Stretch both{stretches[i].begin, stretches[i + 1].end};
+    const ScanStretch both{stretches[i].begin, stretches[i + 1].end};
     if (both.size() < 4) continue;
     const BestCut best = descend(points, both, stretches[i].end, 2);
     stretches[i].end = best.cut;
@@ -102,8 +102,9 @@ void move_cuts(const ScanPoints& points, std::size_t first, std::vector<Stretch>
 
 }  // namespace
 
-void segment_piece(const ScanPoints& points, Stretch piece, const std::vector<std::size_t>& cuts,
-                   const CornerDecision& decision, std::vector<Stretch>& stretches) {
+void segment_piece(const ScanPoints& points, ScanStretch piece,
+                   const std::vector<std::size_t>& cuts, const CornerDecision& decision,
+                   std::vector<ScanStretch>& stretches) {
   const std::size_t first = stretches.size();
   std::size_t begin = piece.begin;
   for (const std::size_t cut : cuts) {

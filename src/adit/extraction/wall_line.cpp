@@ -16,7 +16,7 @@ struct NormalEquations {
   int points = 0;
 };
 
-Line start_line(const ScanPoints& points, Stretch s) {
+Line start_line(const ScanPoints& points, ScanStretch s) {
   const LineFit fit = fit_line(points.moments(s.begin, s.end));
   const Vector2d chord = points.point(s.end - 1) - points.point(s.begin);
   const Vector2d along = fit.direction.dot(chord) < 0.0 ? Vector2d(-fit.direction) : fit.direction;
@@ -26,7 +26,7 @@ Line start_line(const ScanPoints& points, Stretch s) {
   return line;
 }
 
-NormalEquations accumulate(const ScanPoints& points, Stretch s, const Line& line, double gate) {
+NormalEquations accumulate(const ScanPoints& points, ScanStretch s, const Line& line, double gate) {
   NormalEquations sum;
   const Vector2d normal = unit_vector(line.orientation);
   const Vector2d tangent = perpendicular(normal);
@@ -77,7 +77,7 @@ Vector2d meet(const Line& line, const Vector2d& beam, const Vector2d& fallback) 
   return fallback + normal * (line.distance - normal.dot(fallback));
 }
 
-std::optional<Line> fit_wall_line(const ScanPoints& points, Stretch s, int min_points,
+std::optional<Line> fit_wall_line(const ScanPoints& points, ScanStretch s, int min_points,
                                   const CutEnds& cuts, double gate) {
   if (static_cast<int>(s.size()) < min_points) return std::nullopt;
   Line line = start_line(points, s);

@@ -20,7 +20,7 @@ struct CutEnds {
 /// regression; points beyond `gate` sigmas are left out. The covariance follows
 /// from the noise of the points and is scaled up where they scatter more than that. Absent where
 /// fewer than `min_points` points are left.
-std::optional<Line> fit_wall_line(const ScanPoints& points, Stretch stretch, int min_points,
+std::optional<Line> fit_wall_line(const ScanPoints& points, ScanStretch stretch, int min_points,
                                   const CutEnds& cuts = {}, double gate = 3.5);
 
 /// Where the beam of unit direction `beam` meets the infinite line; the nearest point of the line

@@ -41,6 +41,7 @@ LineMap LineMap::build(std::span<const Segment> raw, const LineMapOptions& optio
   if (report != nullptr) *report = done;
 
   LineMap map;
+  map.identity_ = std::make_shared<char>();
   map.walls_.reserve(plan.edges.size());
   for (const Edge& edge : plan.edges) {
     map.walls_.push_back({segment_of(edge, plan.vertices), edge.a, edge.b});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -67,6 +68,11 @@ class LineMap {
   }
   bool empty() const { return walls_.empty(); }
 
+  /// Which build the map comes from: copies have it in common, no two builds do while it is held;
+  /// null for a map that was not built. What is kept of a map's walls is kept with it, not with
+  /// the map's address, where another may stand later.
+  const std::shared_ptr<const void>& identity() const { return identity_; }
+
   /// The smallest box around all walls; empty for an empty map.
   const Box& bounds() const { return bounds_; }
 
@@ -81,6 +87,7 @@ class LineMap {
   std::vector<int> walls_at_;
   SegmentIndex index_;
   Box bounds_;
+  std::shared_ptr<const void> identity_;
 };
 
 }  // namespace adit

@@ -237,6 +237,21 @@ TEST(LineMap, knows_its_bounds) {
   EXPECT_EQ(map.bounds().max, Vector2d(4.0, 3.0));
 }
 
+TEST(LineMap, has_the_identity_of_its_build) {
+  const std::vector<Segment> walls = {{{0, 0}, {5, 0}}, {{5, 0}, {5, 4}}};
+  EXPECT_EQ(LineMap{}.identity(), nullptr);
+  LineMap map = LineMap::build(walls);
+  const LineMap copy = map;
+  ASSERT_NE(map.identity(), nullptr);
+  EXPECT_EQ(copy.identity(), map.identity());
+  // Another build is another map: of the same walls, in the same place, or where one was.
+  const auto held = map.identity();
+  for (int i = 0; i < 100; ++i) {
+    map = LineMap::build(walls);
+    EXPECT_NE(map.identity(), held);
+  }
+}
+
 TEST(LineMap, near_appends_what_touches_the_circle) {
   const auto [map, report] = clean({{{0.0, 1.0}, {1.0, 1.0}}, {{0.0, 3.0}, {1.0, 3.0}}});
   std::vector<int> found{-7};

@@ -61,7 +61,7 @@ double variance_of_miss(const WallDoubt& doubt, const Vector2d& normal, const Ve
 void BeamResiduals::set_scan(const LaserScan& scan, const ScannerModel& scanner, int missing_wall) {
   const std::size_t count = scan.ranges.size();
   scan_ = &scan;
-  swept_map_ = nullptr;
+  has_swept_ = false;
   missing_wall_ = missing_wall;
   max_range_ = scanner.no_return_from(scan.max_range);
   min_range_ = scanner.min_range_m;
@@ -228,9 +228,12 @@ void BeamResiduals::look_from(const LineMap& map, const Station& station, const 
   const Vector2d centre = station.laser.translation();
   const bool moves = timing_.step_s != 0.0;
   const std::span<int> walls(walls_.data(), count);
-  if (!(&map == swept_map_ && (centre - swept_from_).norm() <= options.same_place_m)) {
+  const bool is_same_map = swept_map_ == map.identity();
+  const bool is_near = (centre - swept_from_).norm() <= options.same_place_m;
+  if (!(has_swept_ && is_same_map && is_near)) {
     visibility_.sweep(map, centre, reach_);
-    swept_map_ = &map;
+    if (!is_same_map) swept_map_ = map.identity();
+    has_swept_ = true;
     swept_from_ = centre;
   }
   look_up_walls(station, stride, walls);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -103,7 +104,8 @@ class BeamResiduals {
   }
 
   const LaserScan* scan_ = nullptr;
-  const LineMap* swept_map_ = nullptr;  // the last sweep's, and where it was taken
+  bool has_swept_ = false;                 // since the scan was set: of this map, from here
+  std::shared_ptr<const void> swept_map_;  // its identity
   Vector2d swept_from_ = Vector2d::Zero();
   double reach_ = 0.0;  // how far the map is looked at (m)
   double max_range_ = 0.0;

@@ -100,6 +100,19 @@ TEST(BeamResiduals, ReturnsWhereTheMapHasNothingAreCounted) {
   EXPECT_EQ(residuals.unmapped(), 24);
 }
 
+TEST(BeamResiduals, AnotherMapInTheSamePlaceIsSweptAnew) {
+  LineMap map = map_of({{Vector2d(5.0, -30.0), Vector2d(5.0, 30.0)}});
+  const LaserScan scan = star(5.0);
+  BeamResiduals residuals;
+  residuals.set_scan(scan, fine_scanner());
+  residuals.compute(map, {}, {}, {}, {});
+  EXPECT_EQ(residuals.unmapped(), 27);  // up to 40 degrees on either side it is within 7 m
+  map = map_of(
+      {{Vector2d(4.0, -30.0), Vector2d(4.0, 30.0)}, {Vector2d(-4.0, -30.0), Vector2d(-4.0, 30.0)}});
+  residuals.compute(map, {}, {}, {}, {});
+  EXPECT_EQ(residuals.unmapped(), 14);  // up to 50 degrees, before and behind
+}
+
 TEST(BeamResiduals, FlatBeamsAreLeftOut) {
   const LineMap map = map_of({{Vector2d(2.0, -15.0), Vector2d(2.0, 15.0)}});
   RefinementOptions options;

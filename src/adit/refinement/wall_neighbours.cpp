@@ -25,8 +25,9 @@ WallLine line_of(const LineMap& map, int wall) {
 }
 
 void WallNeighbours::reset(const LineMap& map, double reach) {
-  if (map_ == &map && reach_ == reach) return;
   map_ = &map;
+  if (!slots_.empty() && identity_ == map.identity() && reach_ == reach) return;
+  identity_ = map.identity();
   reach_ = reach;
   slots_.assign(std::clamp<std::size_t>(map.walls().size(), 1, kSlots), Slot{});
 }

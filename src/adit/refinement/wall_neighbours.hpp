@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -26,7 +27,8 @@ WallLine line_of(const LineMap& map, int wall);
 /// the vehicle drives on.
 class WallNeighbours {
  public:
-  /// Forgets what was kept: for another map or another reach (m).
+  /// Before neighbours are asked for: the map, which must stay alive meanwhile, and the reach (m).
+  /// What was kept of another map or for another reach is forgotten.
   void reset(const LineMap& map, double reach);
 
   /// The nearest neighbours of a wall, nearest first, none farther than the reach.
@@ -44,6 +46,7 @@ class WallNeighbours {
   void fill(Slot& slot);
 
   const LineMap* map_ = nullptr;
+  std::shared_ptr<const void> identity_;  // of the map whose neighbours are kept
   double reach_ = 0.0;
   std::vector<Slot> slots_;
   std::vector<int> near_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <random>
 #include <utility>
 #include <vector>
@@ -108,6 +109,28 @@ TEST(WallNeighbours, AnotherMapOrReachStartsAnew) {
   near.reset(wide, 1.1);
   EXPECT_GT(near.of(7).size(), 2u);
   expect_nearest(wide, 7, 1.1, near.of(7));
+}
+
+TEST(WallNeighbours, AnotherMapInTheSamePlaceStartsAnew) {
+  LineMap map = fence(30, 0.2);
+  WallNeighbours near;
+  near.reset(map, 0.3);
+  expect_nearest(map, 7, 0.3, near.of(7));
+  map = fence(30, 0.5);
+  near.reset(map, 0.3);
+  EXPECT_EQ(near.of(7).size(), 0u);
+  expect_nearest(map, 7, 0.3, near.of(7));
+}
+
+TEST(WallNeighbours, ACopyServesOnWhereTheMapIsGone) {
+  auto map = std::make_unique<LineMap>(fence(30, 0.2));
+  const LineMap copy = *map;
+  WallNeighbours near;
+  near.reset(*map, 0.3);
+  expect_nearest(*map, 7, 0.3, near.of(7));
+  map.reset();
+  near.reset(copy, 0.3);
+  for (int wall = 0; wall < 30; ++wall) expect_nearest(copy, wall, 0.3, near.of(wall));
 }
 
 TEST(WallLine, IsTheWall) {

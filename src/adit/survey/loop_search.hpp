@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "adit/survey/correlative_search.hpp"
+#include "adit/scan_motion/correlative_search.hpp"
 #include "adit/survey/drift.hpp"
 #include "adit/survey/drive_options.hpp"
 #include "adit/survey/scan_tracker.hpp"

@@ -1,12 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "adit/motion/odometry.hpp"
-#include "adit/survey/alignment.hpp"
-#include "adit/survey/correlative_search.hpp"
+#include "adit/scan_motion/scan_motion.hpp"
 #include "adit/survey/drive_options.hpp"
 
 namespace adit {
@@ -42,46 +40,22 @@ class ScanTracker {
   const std::vector<TrackedScan>& scans() const { return scans_; }
 
  private:
-  struct Placed {
-    Pose2 pose;
-    Matrix3d information = Matrix3d::Zero();  // of the scan alone, tracking frame
-    bool found = false;                       // else by dead reckoning alone
-  };
-  /// What is known of a scan before it is placed.
-  struct Guess {
-    const ScanShape& shape;
-    double beam_sigma_m;
-    Pose2 predicted;
-    Matrix3d covariance;
-  };
-
-  Placed place(const Guess& guess);
-  std::optional<Alignment> look_farther(const Guess& guess, SearchWindow window);
-  Alignment lay(const Guess& guess, const Pose2& start, const Pose2& prior) const;
-  double closeness(const Guess& guess, const Pose2& pose) const;
-  bool is_surprising(const Guess& guess, const Alignment& fit) const;
-  bool is_sure(const Guess& guess, const Alignment& fit, double close_at_odometry) const;
-  SearchWindow window_around(const Guess& guess) const;
-  void keep(ScanShape shape, double beam_sigma_m, const Placed& placed);
-  void rebuild_local_map();
+  void drive_on(const Pose2& odom_from_vehicle);
+  bool is_due() const;
+  Pose2 lay(const LaserScan& scan, const ScannerModel& scanner);
+  void keep(const ScanMove& move);
   void learn_excess(const Keyframe& frame);
 
   OdometryNoise noise_;
   TrackingStepOptions options_;
-  SurfaceOptions surface_options_;
-  AlignmentOptions alignment_options_;
-  SurfaceMaker maker_;
-  SurfaceMap local_;
-  EvidenceField field_;
-  CorrelativeSearch search_;
+  ScanMotion motion_;
   std::vector<Keyframe> keyframes_;
   std::vector<TrackedScan> scans_;
   double raw_excess_ = 1.0;            // squared errors of dead reckoning against those stated
   double odometry_excess_ = 1.0;       // the same, no less than one
-  int skipped_ = 0;                    // scans since the last that was placed
-  Pose2 last_pose_;                    // of the last scan that was placed
+  int skipped_ = 0;                    // scans since the last that was laid
   Pose2 last_scan_pose_;               // of the last scan
-  PoseWithCovariance since_placed_;    // dead reckoning
+  PoseWithCovariance since_found_;     // dead reckoning
   PoseWithCovariance since_keyframe_;  // dead reckoning
   Pose2 previous_odometry_;            // of the last scan
 };

@@ -3,7 +3,7 @@
 #include <optional>
 #include <span>
 
-#include "adit/survey/evidence_field.hpp"
+#include "adit/scan_motion/evidence_field.hpp"
 
 namespace adit {
 

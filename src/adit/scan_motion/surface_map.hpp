@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "adit/survey/surface_points.hpp"
+#include "adit/scan_motion/surface_points.hpp"
 
 namespace adit {
 

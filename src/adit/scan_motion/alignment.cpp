@@ -1,4 +1,4 @@
-#include "adit/survey/alignment.hpp"
+#include "adit/scan_motion/alignment.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -86,6 +86,7 @@ Alignment align(std::span<const SurfacePoint> source, const SurfaceMap& target,
   out.information = lin.information / variance;
   out.matched = lin.matched;
   out.matched_share = lin.tried > 0 ? static_cast<double>(lin.matched) / lin.tried : 0.0;
+  out.closeness = lin.mean_closeness();
   return out;
 }
 

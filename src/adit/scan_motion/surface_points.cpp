@@ -1,4 +1,4 @@
-#include "adit/survey/surface_points.hpp"
+#include "adit/scan_motion/surface_points.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "adit/survey/surface_map.hpp"
+#include "adit/scan_motion/surface_map.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "adit/survey/drive_options.hpp"
-#include "adit/survey/surface_map.hpp"
+#include "adit/scan_motion/options.hpp"
+#include "adit/scan_motion/surface_map.hpp"
 
 namespace adit {
 
@@ -20,6 +20,7 @@ struct Alignment {
   Matrix3d information = Matrix3d::Zero();
   int matched = 0;             ///< points that found a wall at the end
   double matched_share = 0.0;  ///< of those with a normal
+  double closeness = 0.0;      ///< the mean over those at the end, as in `Linearization`
 };
 
 /// Robust point-to-line alignment (Chen and Medioni 1991) by Gauss-Newton with the weights of
@@ -35,7 +36,10 @@ struct Linearization {
   int matched = 0;
   int tried = 0;
   double closeness = 0.0;  ///< sum over the points: 1 on its wall, 0.5 at the scale, 0 without one
+  /// The mean over the points with a normal, 0 to 1; 0 where there are none.
+  double mean_closeness() const { return tried > 0 ? closeness / tried : 0.0; }
 };
+
 /// Takes out what walls seem to say of a direction in which they do not hold the pose (after Zhang,
 /// Kaess and Singh 2016).
 void drop_weak_direction(Linearization& lin, const AlignmentOptions& options);

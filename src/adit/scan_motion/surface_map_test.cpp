@@ -1,11 +1,11 @@
-#include "adit/survey/surface_map.hpp"
+#include "adit/scan_motion/surface_map.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "adit/scan_motion/evidence_field.hpp"
 #include "adit/simulation/random.hpp"
-#include "adit/survey/evidence_field.hpp"
 
 namespace adit {
 namespace {

@@ -1,4 +1,4 @@
-#include "adit/survey/correlative_search.hpp"
+#include "adit/scan_motion/correlative_search.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "adit/geometry/pose2.hpp"
 #include "adit/scan/laser_scan.hpp"
 #include "adit/scan/scanner_model.hpp"
-#include "adit/survey/drive_options.hpp"
+#include "adit/scan_motion/options.hpp"
 
 namespace adit {
 

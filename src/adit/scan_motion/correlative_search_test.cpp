@@ -1,10 +1,10 @@
-#include "adit/survey/correlative_search.hpp"
+#include "adit/scan_motion/correlative_search.hpp"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "adit/scan_motion/alignment.hpp"
 #include "adit/simulation/random.hpp"
-#include "adit/survey/alignment.hpp"
 
 namespace adit {
 namespace {

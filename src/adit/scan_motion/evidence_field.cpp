@@ -1,4 +1,4 @@
-#include "adit/survey/evidence_field.hpp"
+#include "adit/scan_motion/evidence_field.hpp"
 
 #include <algorithm>
 #include <cmath>
