@@ -13,7 +13,7 @@
 
 #include "adit/relocation/place_file.hpp"
 #include "adit/relocation/relocator.hpp"
-#include "adit/relocation/share_out.hpp"
+#include "adit/threads/share_out.hpp"
 #include "locate_oracle.hpp"
 #include "locate_scene.hpp"
 

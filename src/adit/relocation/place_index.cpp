@@ -6,7 +6,7 @@
 #include <functional>
 #include <utility>
 
-#include "adit/relocation/share_out.hpp"
+#include "adit/threads/share_out.hpp"
 #include "adit/visibility/visibility.hpp"
 
 namespace adit {
