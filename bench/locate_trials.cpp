@@ -11,7 +11,7 @@
 #include <fstream>
 #include <map>
 
-#include "adit/relocation/place_file.hpp"
+#include "adit/places/place_file.hpp"
 #include "adit/relocation/relocator.hpp"
 #include "adit/threads/share_out.hpp"
 #include "locate_oracle.hpp"

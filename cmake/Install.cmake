@@ -5,7 +5,7 @@
 include(CMakePackageConfigHelpers)
 
 set(adit_core_modules geometry threads motion scan deskew map visibility features prediction extraction
-  matching estimation information refinement tracking relocation recovery localizer)
+  matching estimation information refinement tracking places relocation recovery localizer)
 set(adit_io_modules)
 if(ADIT_BUILD_APPS)
   set(adit_io_modules io config)

@@ -1,4 +1,4 @@
-#include "adit/relocation/place_file.hpp"
+#include "adit/places/place_file.hpp"
 
 #include <gtest/gtest.h>
 

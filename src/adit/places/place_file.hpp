@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "adit/geometry/result.hpp"
-#include "adit/relocation/place_index.hpp"
+#include "adit/places/place_index.hpp"
 
 namespace adit {
 

@@ -1,4 +1,4 @@
-#include "adit/relocation/place_index.hpp"
+#include "adit/places/place_index.hpp"
 
 #include <algorithm>
 #include <array>

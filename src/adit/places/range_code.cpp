@@ -1,4 +1,4 @@
-#include "adit/relocation/range_code.hpp"
+#include "adit/places/range_code.hpp"
 
 #include <algorithm>
 #include <cmath>
