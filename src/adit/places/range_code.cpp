@@ -8,8 +8,8 @@
 namespace adit {
 namespace {
 
-constexpr double kFarthest = 100.0;  // m
-constexpr double kLinear = 4.0;      // m; codes are near linear below
+constexpr double kFarthest = kPlaceCoding.farthest_m;
+constexpr double kLinear = kPlaceCoding.linear_m;
 
 }  // namespace
 
