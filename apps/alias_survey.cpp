@@ -9,7 +9,7 @@
 
 #include "adit/plot/figures.hpp"
 #include "adit/refinement/map_error.hpp"
-#include "adit/relocation/share_out.hpp"
+#include "adit/threads/share_out.hpp"
 #include "adit/visibility/visibility.hpp"
 #include "progress.hpp"
 

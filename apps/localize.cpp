@@ -9,7 +9,7 @@
 #include "adit/io/plan_levels.hpp"
 #include "adit/io/saved_pose.hpp"
 #include "adit/io/trajectory.hpp"
-#include "adit/relocation/share_out.hpp"
+#include "adit/threads/share_out.hpp"
 #include "commands.hpp"
 #include "configured.hpp"
 #include "find_level.hpp"

@@ -102,17 +102,15 @@ Json map_error_report(const MapError& error, const std::string& source) {
 }
 
 template <class Value>
-Json spread(std::vector<Value> values, double unit) {
+Json spread(const std::vector<Value>& values, double unit) {
   Json json = Json::object();
   if (values.empty()) return json;
-  std::sort(values.begin(), values.end());
-  const auto at = [&](double q) {
-    return unit * static_cast<double>(
-                      values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))]);
-  };
-  json["median"] = at(0.5);
-  json["p99"] = at(0.99);
-  json["max"] = at(1.0);
+  std::vector<double> ascending;
+  for (const Value value : values) ascending.push_back(unit * static_cast<double>(value));
+  std::sort(ascending.begin(), ascending.end());
+  json["median"] = percentile(ascending, 0.5);
+  json["p99"] = percentile(ascending, 0.99);
+  json["max"] = ascending.back();
   return json;
 }
 
@@ -165,7 +163,7 @@ Json localize_report(const LogSettings& settings, const MapReport& cleaning, con
   json["log"] = log_report(log, settings);
   std::vector<int> pairs;
   for (const EstimateRow& row : replay.rows) pairs.push_back(row.pairs);
-  json["pairs"] = spread(std::move(pairs), 1.0);
+  json["pairs"] = spread(pairs, 1.0);
   json["search_calls"] = spread(replay.search_calls, 1.0);
   return json;
 }
@@ -179,9 +177,8 @@ Json timings_report(const std::vector<Timings>& timings) {
     for (const Timings& t : timings) {
       if (seconds_of(t) > 0.0) seconds.push_back(seconds_of(t));
     }
-    const std::size_t scans = seconds.size();
-    json[name] = spread(std::move(seconds), kMicroseconds);
-    json[name]["scans"] = scans;
+    json[name] = spread(seconds, kMicroseconds);
+    json[name]["scans"] = seconds.size();
   };
   add("deskew", [](const Timings& t) { return t.deskew; });
   add("prediction", [](const Timings& t) { return t.prediction; });

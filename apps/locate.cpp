@@ -6,7 +6,7 @@
 #include "adit/calibration/log_settings.hpp"
 #include "adit/plot/figures.hpp"
 #include "adit/plot/place_figures.hpp"
-#include "adit/relocation/share_out.hpp"
+#include "adit/threads/share_out.hpp"
 #include "commands.hpp"
 #include "configured.hpp"
 #include "locate_report.hpp"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "adit/evaluation/statistics.hpp"
 #include "adit/io/plan.hpp"
 #include "adit/map/line_map.hpp"
 #include "commands.hpp"
@@ -64,7 +65,7 @@ int run_map_info(const MapArguments& arguments) {
   fmt::print("x {:.3f} to {:.3f} m, y {:.3f} to {:.3f} m: {:.1f} x {:.1f} m\n", low.x(), high.x(),
              low.y(), high.y(), high.x() - low.x(), high.y() - low.y());
   fmt::print("walls {:.1f} m in all; shortest {:.3f}, median {:.3f}, longest {:.3f} m\n", total,
-             lengths.front(), lengths[lengths.size() / 2], lengths.back());
+             lengths.front(), percentile(lengths, 0.5), lengths.back());
   return kDone;
 }
 

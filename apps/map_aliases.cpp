@@ -2,7 +2,7 @@
 
 #include "adit/io/plan.hpp"
 #include "adit/plot/figures.hpp"
-#include "adit/relocation/share_out.hpp"
+#include "adit/threads/share_out.hpp"
 #include "alias_survey.hpp"
 #include "commands.hpp"
 #include "configured.hpp"

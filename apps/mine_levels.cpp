@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "adit/relocation/place_file.hpp"
+#include "adit/places/place_file.hpp"
 
 namespace adit {
 

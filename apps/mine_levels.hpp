@@ -7,7 +7,7 @@
 #include "adit/geometry/result.hpp"
 #include "adit/io/plan_levels.hpp"
 #include "adit/map/line_map.hpp"
-#include "adit/relocation/place_index.hpp"
+#include "adit/places/place_index.hpp"
 
 namespace adit {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "adit/map/line_map.hpp"
-#include "adit/relocation/place_index.hpp"
+#include "adit/places/place_index.hpp"
 
 namespace adit {
 

@@ -9,9 +9,9 @@
 
 #include "adit/io/log_file.hpp"
 #include "adit/io/trajectory.hpp"
-#include "adit/relocation/share_out.hpp"
 #include "adit/survey/drive_survey.hpp"
 #include "adit/survey/known_positions.hpp"
+#include "adit/threads/share_out.hpp"
 #include "configured.hpp"
 #include "progress.hpp"
 #include "replay.hpp"

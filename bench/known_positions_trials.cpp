@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "adit/evaluation/statistics.hpp"
 #include "adit/io/plan.hpp"
 #include "adit/simulation/clutter.hpp"
 #include "adit/simulation/mine_worlds.hpp"
@@ -146,7 +147,7 @@ Trial make_trial(const ScannerSpec& spec, double spacing, bool by_station, std::
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
   std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+  return percentile(values, share);
 }
 
 double nearest(std::span<const Segment> segments, const Vector2d& p) {

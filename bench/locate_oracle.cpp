@@ -5,7 +5,7 @@
 #include <set>
 #include <tuple>
 
-#include "adit/relocation/share_out.hpp"
+#include "adit/threads/share_out.hpp"
 
 namespace adit {
 namespace {

@@ -11,9 +11,10 @@
 #include <fstream>
 #include <map>
 
-#include "adit/relocation/place_file.hpp"
+#include "adit/evaluation/statistics.hpp"
+#include "adit/places/place_file.hpp"
 #include "adit/relocation/relocator.hpp"
-#include "adit/relocation/share_out.hpp"
+#include "adit/threads/share_out.hpp"
 #include "locate_oracle.hpp"
 #include "locate_scene.hpp"
 
@@ -60,7 +61,7 @@ struct Tally {
   double quantile(double part) {
     if (seconds.empty()) return 0.0;
     std::sort(seconds.begin(), seconds.end());
-    return seconds[static_cast<std::size_t>(part * static_cast<double>(seconds.size() - 1))];
+    return percentile(seconds, part);
   }
 
   void print_shares(const char* what) const {

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "adit/evaluation/statistics.hpp"
 #include "adit/localizer/localizer.hpp"
 #include "adit/relocation/fit_quality.hpp"
 #include "adit/simulation/carried_off.hpp"
@@ -253,7 +254,7 @@ void print(const char* name, std::span<const Outcome> outcomes) {
   }
   std::sort(metres.begin(), metres.end());
   const auto within = std::upper_bound(metres.begin(), metres.end(), kSoon) - metres.begin();
-  const double median = metres.empty() ? 0.0 : metres[metres.size() / 2];
+  const double median = metres.empty() ? 0.0 : percentile(metres, 0.5);
   fmt::print(
       "{:<10} runs {}  ok and right within {:.0f} m: {}  never: {}  median way {:.1f} m  trusted "
       "{:.1f} % of {} scans  ok and wrong: {} scans in {} runs\n",

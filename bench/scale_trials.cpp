@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "adit/evaluation/statistics.hpp"
 #include "adit/io/plan.hpp"
 #include "adit/map/line_map.hpp"
 #include "adit/prediction/prediction.hpp"
@@ -83,9 +84,8 @@ class Predictor {
 };
 
 double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  std::sort(values.begin(), values.end());
+  return percentile(values, 0.5);
 }
 
 void compare_prediction() {

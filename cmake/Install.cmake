@@ -4,8 +4,9 @@
 # Pictures, simulation and evaluation serve the command and are not installed.
 include(CMakePackageConfigHelpers)
 
-set(adit_core_modules geometry motion scan deskew map visibility features prediction extraction
-  scan_motion matching estimation information refinement tracking relocation recovery localizer)
+set(adit_core_modules geometry threads motion scan deskew map visibility features prediction
+  extraction scan_motion matching estimation information refinement tracking places relocation
+  recovery localizer)
 set(adit_io_modules)
 if(ADIT_BUILD_APPS)
   set(adit_io_modules io config)

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Checks the structure of a source tree: the law of includes (allowed.txt beside this file), slow
-# headers in one file each, no file over 400 lines. Prints each breach; exit status 1 if there is one.
-# Usage: check.sh [TREE]
+# Checks the structure of a source tree: the law of includes (allowed.txt beside this file), that it
+# grants no more than is used, slow headers in one file each, no file over 400 lines. Prints each
+# breach; exit status 1 if there is one.
+# Usage: check.sh [TREE [TABLE]]
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-table=$here/allowed.txt
+table=$(realpath "${2:-$here/allowed.txt}")
 cd "${1:-$here/../..}"
 
 folders=()
@@ -18,6 +19,8 @@ if [ -z "$list" ]; then
   exit 1
 fi
 mapfile -t files <<<"$list"
+libraries=()
+if [ -f src/adit/CMakeLists.txt ]; then libraries=(src/adit/CMakeLists.txt); fi
 
 awk '
   function breach(text) { print text; breaches++ }
@@ -27,13 +30,36 @@ awk '
     if ($0 ~ /^#/ || NF == 0) next
     name = $1
     sub(/:$/, "", name)
-    if (name == "outside") { for (i = 2; i <= NF; i++) outside[$i] = 1; next }
+    if (name == "outside") {
+      for (i = 2; i <= NF; i++) {
+        outside[$i] = 1
+        grants[++granted] = $i SUBSEP "another library"
+        line_of[granted] = FNR
+      }
+      next
+    }
     if (name == "once") { for (i = 2; i <= NF; i++) once[$i] = ""; next }
     for (i = 2; i <= NF; i++) {
       if (!($i in rooms)) breach(FILENAME ":" FNR ": " name " names " $i ", which is not above it")
       allowed[name, $i] = 1
+      grants[++granted] = name SUBSEP $i
+      line_of[granted] = FNR
     }
     rooms[name] = 1
+    next
+  }
+
+  # the libraries: adit_module(room DEPENDS room... )
+  FILENAME ~ /CMakeLists\.txt$/ {
+    gsub(/[()]/, " & ")
+    for (i = 1; i <= NF; i++) {
+      if ($i ~ /^#/) break
+      if ($i == "adit_module") { library = $(i + 2); depends = 0 }
+      else if ($i ~ /^(PUBLIC|PRIVATE|\))$/) depends = 0
+      else if ($i == "DEPENDS") depends = 1
+      else if (depends && !((library, $i) in allowed))
+        breach(FILENAME ":" FNR ": " library " may not depend on " $i)
+    }
     next
   }
 
@@ -65,15 +91,24 @@ awk '
     if (room == "" || is_test) next
     split(header, step, "/")
     if (step[1] == "adit") {
+      used[room, step[2]] = 1
       if (step[2] != room && !((room, step[2]) in allowed))
         breach(where room " may not include " header)
     } else if (quoted) {
       breach(where "\"" header "\": name it from its room, adit/ROOM/...")
-    } else if (header ~ /[\/.]/ && header !~ /^(Eigen|tl)\// && !(room in outside)) {
-      breach(where room " may not include " header ": only Eigen, tl::expected and the standard library")
+    } else if (header ~ /[\/.]/ && header !~ /^(Eigen|tl)\//) {
+      used[room, "another library"] = 1
+      if (!(room in outside)) breach(where room " may not include " header ": only Eigen, tl::expected and the standard library")
     }
   }
 
-  END { exit breaches > 0 }
-' "$table" "${files[@]}"
+  END {
+    for (i = 1; i <= granted; i++) {
+      if (grants[i] in used) continue
+      split(grants[i], grant, SUBSEP)
+      breach(table ":" line_of[i] ": " grant[1] " is granted " grant[2] ", of which it includes nothing")
+    }
+    exit breaches > 0
+  }
+' table="${table##*/}" "$table" "${libraries[@]}" "${files[@]}"
 echo "layering: ${#files[@]} files keep the law"

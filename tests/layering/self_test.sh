@@ -14,10 +14,12 @@ put() {
   printf '%b\n' "$2" >"$scratch/tree/$1"
 }
 
-# expect NAME PATTERN: the tree must be refused with a line that matches; `-` means it must pass
+# expect NAME PATTERN: the tree must be refused with a line that matches; `-` means it must pass. It
+# is judged by the table in it, if there is one; else by the real one, of which it does not use all.
 expect() {
-  local name=$1 pattern=$2 output status=0
-  output=$(bash "$here/check.sh" "$scratch/tree" 2>&1) || status=$?
+  local name=$1 pattern=$2 output status=0 table=()
+  if [ -f "$scratch/tree/allowed.txt" ]; then table=("$scratch/tree/allowed.txt"); fi
+  output=$(bash "$here/check.sh" "$scratch/tree" "${table[@]}" 2>&1) || status=$?
   cases=$((cases + 1))
   if [ "$pattern" = - ]; then
     if [ $status -ne 0 ]; then failures=$((failures + 1)); echo "FAILED $name: $output"; fi
@@ -28,11 +30,32 @@ expect() {
   rm -rf "$scratch/tree"
 }
 
-put src/adit/map/map.hpp '#include <vector>\n#include <Eigen/Core>\n#include "adit/geometry/angle.hpp"'
-put src/adit/map/map_test.cpp '#include "adit/simulation/world.hpp"'
-put apps/main.cpp '#include <CLI/CLI.hpp>\n#include "adit/io/plan.hpp"'
-put src/adit/io/json.cpp '#include <nlohmann/json.hpp>'
+# A lawful tree, to which a case may add.
+lawful() {
+  put allowed.txt "geometry:\nmap: geometry\nio: geometry map\noutside: io\nonce: CLI/ nlohmann/"
+  put src/adit/CMakeLists.txt 'adit_module(map DEPENDS geometry)\nadit_module(io DEPENDS map\n  PRIVATE fmt)'
+  put src/adit/map/map.hpp '#include <vector>\n#include <Eigen/Core>\n#include "adit/geometry/angle.hpp"'
+  put src/adit/map/map_test.cpp '#include "adit/simulation/world.hpp"'
+  put apps/main.cpp '#include <CLI/CLI.hpp>\n#include "adit/io/plan.hpp"'
+  put src/adit/io/json.cpp '#include <nlohmann/json.hpp>\n#include "adit/map/map.hpp"'
+  put src/adit/io/json.hpp '#include "adit/geometry/angle.hpp"'
+}
+
+lawful
 expect 'a lawful tree' -
+
+lawful
+put src/adit/io/json.hpp 'int x;'
+put src/adit/io/json_test.cpp '#include "adit/geometry/angle.hpp"'
+expect 'a grant that only a test uses' 'allowed.txt:3: io is granted geometry, of which it includes nothing'
+
+lawful
+put src/adit/io/json.cpp '#include <string>\n#include "adit/map/map.hpp"'
+expect 'a library granted in vain' 'allowed.txt:4: io is granted another library, of which it includes nothing'
+
+lawful
+put src/adit/CMakeLists.txt '# map\nadit_module(map PUBLIC Eigen3::Eigen DEPENDS\n  geometry io PRIVATE fmt)'
+expect 'a library that depends on one above' 'CMakeLists.txt:3: map may not depend on io'
 
 put src/adit/geometry/angle.hpp '#include "adit/map/map.hpp"'
 expect 'an arrow upwards' 'angle.hpp:1: geometry may not include adit/map/map.hpp'

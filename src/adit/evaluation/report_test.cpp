@@ -38,7 +38,7 @@ TEST(Evaluate, HandComputedErrors) {
   EXPECT_NEAR(report.position.max, 0.5, 1e-12);
   EXPECT_NEAR(report.heading_deg.mean, 6.0, 1e-9);
   EXPECT_NEAR(report.heading_deg.median, 4.0, 1e-9);
-  EXPECT_NEAR(report.heading_deg.p95, 11.2, 1e-9);
+  EXPECT_NEAR(report.heading_deg.p95, 12.0, 1e-9);
   EXPECT_EQ(report.beyond_lost, 0);
   EXPECT_FALSE(report.first_lost_stamp);
   EXPECT_FALSE(report.by_status);

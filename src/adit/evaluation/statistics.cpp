@@ -4,18 +4,14 @@
 #include <cmath>
 
 namespace adit {
-namespace {
-
-double percentile(const std::vector<double>& sorted, double q) {
-  const double place = q * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const double part = place - static_cast<double>(below);
-  // Without this an infinite neighbour of weight zero would make a not-a-number.
-  if (part == 0.0 || sorted[below] == sorted[below + 1]) return sorted[below];
-  return sorted[below] + part * (sorted[below + 1] - sorted[below]);
+double percentile(std::span<const double> ascending, double p) {
+  if (ascending.empty()) return Statistics::kNone;
+  // A product that rounding lifts above a whole number is that number.
+  constexpr double kRounding = 1e-9;
+  const auto count = static_cast<double>(ascending.size());
+  const double rank = std::clamp(std::ceil(p * count - kRounding), 1.0, count);
+  return ascending[static_cast<std::size_t>(rank) - 1];
 }
-
-}  // namespace
 
 Statistics summarise(std::vector<double> magnitudes) {
   Statistics result;

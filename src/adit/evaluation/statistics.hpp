@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 namespace adit {
@@ -18,8 +19,13 @@ struct Statistics {
   double max = kNone;
 };
 
-/// Summarises magnitudes (not negative; infinity allowed, not-a-number not). Percentiles
-/// interpolate linearly between the order statistics, the q-th lying at q (count - 1).
+/// The percentile of values in ascending order by nearest rank: the ceil(p count)-th of them, with
+/// p from 0 (the least) to 1 (the largest); the median of an even number is the lower of the middle
+/// two. Not-a-number where there are none.
+double percentile(std::span<const double> ascending, double p);
+
+/// Summarises magnitudes (not negative; infinity allowed, not-a-number not), with percentiles by
+/// nearest rank.
 Statistics summarise(std::vector<double> magnitudes);
 
 }  // namespace adit

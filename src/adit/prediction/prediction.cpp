@@ -13,7 +13,7 @@ double bearing_of(const Vector2d& v) { return wrap_angle(std::atan2(v.y(), v.x()
 
 /// A stretch, the bearings of its ends, and its line.
 struct Resolved {
-  Stretch stretch;
+  VisibleStretch stretch;
   double begin_bearing = 0.0;
   double end_bearing = 0.0;  // not below begin_bearing; beyond pi when the stretch spans it
   double orientation = 0.0;  // outward normal
@@ -54,7 +54,7 @@ class Predictor {
 
   /// Adds the line of a stretch, if it can be resolved; `previous` saves the bearing of a shared
   /// vertex.
-  Resolved resolve(const Stretch& stretch, const Resolved* previous);
+  Resolved resolve(const VisibleStretch& stretch, const Resolved* previous);
 
   /// Adds the corner between two stretches that follow each other, if there is one.
   void add_corner(const Resolved& before, const Resolved& after);
@@ -74,7 +74,7 @@ class Predictor {
   FeatureList& out_;
 };
 
-Resolved Predictor::resolve(const Stretch& stretch, const Resolved* previous) {
+Resolved Predictor::resolve(const VisibleStretch& stretch, const Resolved* previous) {
   Resolved out;
   out.stretch = stretch;
   const bool shared = previous != nullptr && previous->stretch.end == stretch.begin;
@@ -137,7 +137,7 @@ void Predictor::add_joined_corner(const Resolved& before, const Resolved& after)
 }
 
 void Predictor::add_end_corner(const Resolved& side, bool after_vertex) {
-  const Stretch& stretch = side.stretch;
+  const VisibleStretch& stretch = side.stretch;
   const int vertex = after_vertex ? stretch.begin_vertex : stretch.end_vertex;
   Corner corner = corner_at(vertex);
   corner.arms[after_vertex ? 1 : 0] = side.line;
@@ -192,8 +192,8 @@ void predict_features(const LineMap& map, const Visibility& visibility, const Ve
   Resolved first;
   Resolved before;
   for (std::size_t done = 0; done < intervals.size();) {
-    const Stretch stretch = stretch_from(intervals, (start + done) % intervals.size(),
-                                         intervals.size() - done, options.straight_m);
+    const VisibleStretch stretch = stretch_from(intervals, (start + done) % intervals.size(),
+                                                intervals.size() - done, options.straight_m);
     const Resolved here = predictor.resolve(stretch, done > 0 ? &before : nullptr);
     if (done > 0) {
       predictor.add_corner(before, here);

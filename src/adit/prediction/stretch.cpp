@@ -54,12 +54,12 @@ std::size_t first_stretch(std::span<const VisibleInterval> intervals, double str
   return 0;
 }
 
-Stretch stretch_from(std::span<const VisibleInterval> intervals, std::size_t first,
-                     std::size_t limit, double straight_m) {
+VisibleStretch stretch_from(std::span<const VisibleInterval> intervals, std::size_t first,
+                            std::size_t limit, double straight_m) {
   const std::size_t count = intervals.size();
   const VisibleInterval* last = &intervals[first];
   const VisibleInterval& begin = *last;
-  Stretch out;
+  VisibleStretch out;
   out.begin = begin.begin;
   out.begin_vertex = begin.begin_vertex;
   out.begin_wall = begin.wall;

@@ -15,7 +15,7 @@ enum class StretchEnd {
 };
 
 /// A straight run of neighbouring visible intervals, counter-clockwise from `begin` to `end`.
-struct Stretch {
+struct VisibleStretch {
   Vector2d begin = Vector2d::Zero();  ///< relative to the observer, map axes (m)
   Vector2d end = Vector2d::Zero();
   int begin_vertex = -1;
@@ -33,7 +33,7 @@ struct Stretch {
 std::size_t first_stretch(std::span<const VisibleInterval> intervals, double straight_m);
 
 /// The stretch that starts with interval `first` and takes at most `limit` intervals, cyclically.
-Stretch stretch_from(std::span<const VisibleInterval> intervals, std::size_t first,
-                     std::size_t limit, double straight_m);
+VisibleStretch stretch_from(std::span<const VisibleInterval> intervals, std::size_t first,
+                            std::size_t limit, double straight_m);
 
 }  // namespace adit

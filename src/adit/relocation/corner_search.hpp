@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "adit/extraction/extraction.hpp"
-#include "adit/relocation/place_index.hpp"
+#include "adit/places/place_index.hpp"
+#include "adit/relocation/options.hpp"
 #include "adit/relocation/place_match.hpp"
 #include "adit/relocation/pose_cells.hpp"
 #include "adit/relocation/quick_fit.hpp"

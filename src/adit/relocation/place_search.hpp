@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "adit/relocation/corner_search.hpp"
+#include "adit/relocation/options.hpp"
 #include "adit/relocation/quick_fit.hpp"
 #include "adit/relocation/view_search.hpp"
 

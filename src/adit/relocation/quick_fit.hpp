@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "adit/geometry/pose2.hpp"
-#include "adit/relocation/wall_field.hpp"
+#include "adit/places/wall_field.hpp"
 #include "adit/scan/laser_scan.hpp"
 #include "adit/scan/scanner_model.hpp"
 

@@ -7,9 +7,9 @@
 
 #include "adit/extraction/extraction.hpp"
 #include "adit/map/line_map.hpp"
+#include "adit/places/place_index.hpp"
 #include "adit/refinement/refinement.hpp"
 #include "adit/relocation/options.hpp"
-#include "adit/relocation/place_index.hpp"
 #include "adit/relocation/place_search.hpp"
 #include "adit/relocation/relocation_result.hpp"
 #include "adit/relocation/scan_likelihood.hpp"

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "adit/map/line_map.hpp"
+#include "adit/places/wall_field.hpp"
 #include "adit/refinement/map_error.hpp"
 #include "adit/relocation/options.hpp"
-#include "adit/relocation/wall_field.hpp"
 #include "adit/scan/laser_scan.hpp"
 #include "adit/scan/scanner_model.hpp"
 #include "adit/visibility/visibility.hpp"

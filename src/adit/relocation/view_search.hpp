@@ -5,7 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "adit/relocation/place_index.hpp"
+#include "adit/places/place_index.hpp"
+#include "adit/relocation/options.hpp"
 #include "adit/relocation/place_match.hpp"
 #include "adit/relocation/pose_cells.hpp"
 

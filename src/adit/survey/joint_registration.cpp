@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "adit/relocation/share_out.hpp"
 #include "adit/survey/drift.hpp"
+#include "adit/threads/share_out.hpp"
 
 namespace adit {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "adit/relocation/share_out.hpp"
+#include "adit/threads/share_out.hpp"
 
 namespace adit {
 namespace {

@@ -6,13 +6,14 @@
 #include <span>
 
 #include "adit/geometry/angle.hpp"
+#include "adit/places/coding.hpp"
 #include "adit/scan/laser_scan.hpp"
 #include "adit/scan/scanner_model.hpp"
 
 namespace adit {
 
 /// What is in sight around a place, as one byte of range in each of so many equal bearing bins.
-inline constexpr std::size_t kRangeBins = 64;
+inline constexpr std::size_t kRangeBins = kPlaceCoding.bins;
 inline constexpr double kRangeBinWidth = kTwoPi / static_cast<double>(kRangeBins);  ///< rad
 using RangeCodes = std::array<std::uint8_t, kRangeBins>;
 
@@ -21,7 +22,7 @@ using RangeCodes = std::array<std::uint8_t, kRangeBins>;
 std::uint8_t range_code(double range_m);
 
 /// The code of "nothing in sight".
-inline constexpr std::uint8_t kNothingInSight = 250;
+inline constexpr std::uint8_t kNothingInSight = kPlaceCoding.nothing_in_sight;
 
 /// A scan in the codes of the index, bin 0 from bearing -pi (laser axes).
 struct ScanCodes {

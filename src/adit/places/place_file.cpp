@@ -1,4 +1,4 @@
-#include "adit/relocation/place_file.hpp"
+#include "adit/places/place_file.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -40,21 +40,6 @@ class Hash {
  private:
   std::uint64_t value_ = 0xCBF29CE484222325u;
 };
-
-/// Of all that an index depends on.
-std::uint64_t hash_of(const LineMap& map, const PlaceIndexOptions& options) {
-  Hash hash;
-  for (const Wall& wall : map.walls()) {
-    for (const Vector2d& end : {wall.segment.a, wall.segment.b}) {
-      hash.add(end.x());
-      hash.add(end.y());
-    }
-  }
-  PlaceIndexOptions::visit(options, [&](const char*, const auto& value, const char*) {
-    hash.add(static_cast<double>(value));
-  });
-  return hash.value();
-}
 
 /// Of what an index holds, so that a damaged file is seen.
 std::uint64_t hash_of(const PlaceArrays& arrays) {
@@ -108,11 +93,28 @@ bool get_all(std::istream& in, std::vector<Value>& values) {
 
 }  // namespace
 
+std::uint64_t place_key(const LineMap& map, const PlaceIndexOptions& options,
+                        const PlaceCoding& coding) {
+  Hash hash;
+  for (const Wall& wall : map.walls()) {
+    for (const Vector2d& end : {wall.segment.a, wall.segment.b}) {
+      hash.add(end.x());
+      hash.add(end.y());
+    }
+  }
+  PlaceIndexOptions::visit(options, [&](const char*, const auto& value, const char*) {
+    hash.add(static_cast<double>(value));
+  });
+  PlaceCoding::visit(coding,
+                     [&](const char*, const auto& value) { hash.add(static_cast<double>(value)); });
+  return hash.value();
+}
+
 Result<void> write_places(const PlaceIndex& places, const LineMap& map,
                           const PlaceIndexOptions& options, std::ostream& out) {
   const PlaceArrays& arrays = places.arrays();
   put(out, kMagic);
-  put(out, hash_of(map, options));
+  put(out, place_key(map, options));
   put(out, hash_of(arrays));
   put(out, arrays.origin_x);
   put(out, arrays.origin_y);
@@ -129,7 +131,7 @@ Result<std::optional<PlaceIndex>> read_places(const LineMap& map, const PlaceInd
   std::uint64_t hash = 0;
   if (!get(in, magic) || magic != kMagic) return fail("not an index of places");
   if (!get(in, hash)) return fail("the index is cut short");
-  if (hash != hash_of(map, options)) return std::optional<PlaceIndex>();
+  if (hash != place_key(map, options)) return std::optional<PlaceIndex>();
   PlaceArrays arrays;
   std::uint64_t body = 0;
   const bool whole = get(in, body) && get(in, arrays.origin_x) && get(in, arrays.origin_y) &&

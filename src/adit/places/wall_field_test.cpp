@@ -1,4 +1,4 @@
-#include "adit/relocation/wall_field.hpp"
+#include "adit/places/wall_field.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "adit/relocation/corner_index.hpp"
+#include "adit/places/corner_index.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,8 @@
-#include "adit/relocation/place_file.hpp"
+#include "adit/places/place_file.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <sstream>
 #include <vector>
 
@@ -67,6 +68,30 @@ TEST(PlaceFile, DoesNotTakeOneMadeWithOtherOptions) {
   const auto read = read_places(room(0.0), {}, in);
   ASSERT_TRUE(read) << to_string(read.error());
   EXPECT_FALSE(read->has_value());
+}
+
+/// As code wrote it that makes an index with other constants, each of them in turn.
+TEST(PlaceFile, DoesNotTakeOneMadeByOtherCode) {
+  const LineMap map = room(0.0);
+  const std::string whole = saved(map, {});
+  constexpr std::size_t kKeyAt = 8;
+  int constants = 0;
+  PlaceCoding::visit(kPlaceCoding, [&](const char*, const auto&) { ++constants; });
+  for (int changed = 0; changed < constants; ++changed) {
+    PlaceCoding other;
+    int number = 0;
+    PlaceCoding::visit(other, [&](const char*, auto& value) {
+      if (number++ == changed) ++value;
+    });
+    const std::uint64_t key = place_key(map, {}, other);
+    std::string text = whole;
+    std::memcpy(&text[kKeyAt], &key, sizeof key);
+    std::istringstream in(text);
+    const auto read = read_places(map, {}, in);
+    ASSERT_TRUE(read) << to_string(read.error());
+    EXPECT_FALSE(read->has_value()) << changed;
+  }
+  EXPECT_GT(constants, 0);
 }
 
 TEST(PlaceFile, RefusesOneThatIsDamaged) {

@@ -1,4 +1,4 @@
-#include "adit/relocation/place_index.hpp"
+#include "adit/places/place_index.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,24 +6,19 @@
 #include <functional>
 #include <utility>
 
-#include "adit/relocation/share_out.hpp"
+#include "adit/threads/share_out.hpp"
 #include "adit/visibility/visibility.hpp"
 
 namespace adit {
 namespace {
 
-constexpr std::size_t kRaysPerBin = 8;
-constexpr std::size_t kMargin = 2;
-constexpr std::size_t kRays = kRangeBins * kRaysPerBin;
-
-// Looking at more squares than this for places takes minutes.
-constexpr double kMostSquares = 1.5e7;
+constexpr std::size_t kRays = kRangeBins * kPlaceCoding.rays_per_bin;
 
 /// Coarse in a large plan, fine in a small one (m): of so much area inside, within such a box.
 double pitch_for(double area, double box_area, const PlaceIndexOptions& options) {
   const double fine = std::max(options.finest_pitch_m, std::sqrt(area / options.enough_places));
   return std::max({std::min(options.pitch_m, fine), std::sqrt(area / options.most_places),
-                   std::sqrt(box_area / kMostSquares)});
+                   std::sqrt(box_area / kPlaceCoding.most_squares)});
 }
 
 /// Looks around from places.
@@ -64,13 +59,13 @@ class Viewer {
 
 /// How large the part of a plan is where a scanner may stand, by sampling (m²).
 double area_inside(const LineMap& map, const PlaceIndexOptions& options) {
-  constexpr int kSide = 60;  // samples along each side
+  constexpr int kSide = kPlaceCoding.area_samples;
   const Vector2d size = map.bounds().size();
   Viewer viewer(map, options);
   int inside = 0;
   for (int row = 0; row < kSide; ++row) {
     // Every row is offset by another part of a step, so that no pattern of the plan is met alike.
-    const double offset = std::fmod(0.618034 * row, 1.0);
+    const double offset = std::fmod(kPlaceCoding.area_shift * row, 1.0);
     for (int column = 0; column < kSide; ++column) {
       const Vector2d part(column + offset, row + 0.5);
       inside += viewer.look_from(map.bounds().min + size.cwiseProduct(part) / kSide);
@@ -94,7 +89,7 @@ class PlaceIndex::RowBuilder {
       const PlaceArrays::Cell cell{column, static_cast<std::int32_t>(row)};
       if (!viewer_.look_from(origin + lattice_.pitch_m * Vector2d(cell.column, cell.row))) continue;
       rows_[row].cells.push_back(cell);
-      rows_[row].codes.push_back(code_ranges(viewer_.ranges(), kMargin));
+      rows_[row].codes.push_back(code_ranges(viewer_.ranges(), kPlaceCoding.margin));
     }
   }
 
@@ -113,8 +108,8 @@ PlaceIndex PlaceIndex::build(const LineMap& map, const PlaceIndexOptions& option
   arrays.pitch_m = pitch_for(area_inside(map, options), size.x() * size.y(), options);
   if (arrays.pitch_m > options.coarsest_pitch_m) return PlaceIndex(map, std::move(arrays));
   const double pitch = arrays.pitch_m;
-  arrays.origin_x = map.bounds().min.x() + 0.5 * pitch;
-  arrays.origin_y = map.bounds().min.y() + 0.5 * pitch;
+  arrays.origin_x = map.bounds().min.x() + kPlaceCoding.first_place * pitch;
+  arrays.origin_y = map.bounds().min.y() + kPlaceCoding.first_place * pitch;
   const auto columns = static_cast<int>(size.x() / pitch) + 1;
   const auto row_count = static_cast<std::size_t>(size.y() / pitch) + 1;
   std::vector<Row> rows(row_count);

@@ -1,4 +1,4 @@
-#include "adit/relocation/share_out.hpp"
+#include "adit/threads/share_out.hpp"
 
 #include <gtest/gtest.h>
 

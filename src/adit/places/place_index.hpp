@@ -7,10 +7,10 @@
 
 #include "adit/geometry/pose2.hpp"
 #include "adit/map/line_map.hpp"
-#include "adit/relocation/corner_index.hpp"
-#include "adit/relocation/options.hpp"
-#include "adit/relocation/range_code.hpp"
-#include "adit/relocation/wall_field.hpp"
+#include "adit/places/corner_index.hpp"
+#include "adit/places/options.hpp"
+#include "adit/places/range_code.hpp"
+#include "adit/places/wall_field.hpp"
 
 namespace adit {
 

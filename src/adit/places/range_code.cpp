@@ -1,4 +1,4 @@
-#include "adit/relocation/range_code.hpp"
+#include "adit/places/range_code.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 namespace adit {
 namespace {
 
-constexpr double kFarthest = 100.0;  // m
-constexpr double kLinear = 4.0;      // m; codes are near linear below
+constexpr double kFarthest = kPlaceCoding.farthest_m;
+constexpr double kLinear = kPlaceCoding.linear_m;
 
 }  // namespace
 
