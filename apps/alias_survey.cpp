@@ -26,8 +26,7 @@ ScannerSpec without_noise(ScannerSpec scanner) {
 }
 
 bool is_same(const Pose2& a, const Pose2& b, const RelocationOptions& options) {
-  const Vector3d apart = difference(a, b);
-  return apart.head<2>().norm() <= options.apart_m && std::abs(apart.z()) <= options.apart_rad;
+  return is_near(a, b, options.apart_m, options.apart_rad);
 }
 
 /// Whether the truth is within what the answer leaves open.

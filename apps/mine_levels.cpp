@@ -1,15 +1,16 @@
 #include "mine_levels.hpp"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
+#include "adit/io/atomic_file.hpp"
 #include "adit/places/place_file.hpp"
 
 namespace adit {
@@ -30,25 +31,19 @@ Result<std::optional<PlaceIndex>> read_index(const std::string& file, const Line
   auto read = read_places(map, options, in);
   if (!read) return fail(read.error().message, file);
   if (!*read) {
-    fmt::print(stderr, "adit: {}: of another plan or other options, made anew\n", file);
+    fmt::print(stderr, "adit: {}: of another plan, other options or another version, made anew\n",
+               file);
   }
   return read;
 }
 
-/// Under another name first, so that nobody reads half of it.
 Result<void> write_index(const std::string& file, const PlaceIndex& index, const LineMap& map,
                          const PlaceIndexOptions& options) {
-  const std::string part = fmt::format("{}.{}.part", file, ::getpid());
-  std::ofstream out(part, std::ios::binary);
-  const auto written = write_places(index, map, options, out);
-  out.close();
-  std::error_code error;
-  if (written && out) std::filesystem::rename(part, file, error);
-  if (written && out && !error) return {};
-  std::error_code ignored;
-  std::filesystem::remove(part, ignored);
-  if (!written) return fail(written.error().message, file);
-  return fail(error ? error.message() : "the index cannot be written", file);
+  std::ostringstream out;
+  if (const auto written = write_places(index, map, options, out); !written) {
+    return fail(written.error().message, file);
+  }
+  return write_file(file, std::move(out).str());
 }
 
 /// What an index holds, in words.

@@ -5,6 +5,7 @@
 #include <set>
 #include <tuple>
 
+#include "adit/scan/returns.hpp"
 #include "adit/threads/share_out.hpp"
 
 namespace adit {
@@ -37,8 +38,7 @@ std::uint8_t code_of(double range) {
 }
 
 bool is_apart(const Pose2& a, const Pose2& b) {
-  const Vector3d off = difference(a, b);
-  return off.head<2>().norm() > kApartMetres || std::abs(off.z()) > kApartRadians;
+  return !is_near(a, b, kApartMetres, kApartRadians);
 }
 
 LaserScan every_nth(const LaserScan& scan, std::size_t beams) {
@@ -134,11 +134,11 @@ void PoseOracle::choose_rays(const LaserScan& scan) {
     if (off < 0.51) beam_at[static_cast<std::size_t>(std::lround(degrees)) % kBearings] = i;
   }
   std::vector<Ray> seen;
-  const double no_return = scanner_.no_return_from(scan.max_range);
+  const ReturnLimits limits = return_limits(scan, scanner_);
   for (std::size_t b = 0; b < kBearings; ++b) {
     if (beam_at[b] == kNone) continue;
     const double range = scan.ranges[beam_at[b]];
-    const bool has_return = range > 0.0 && range >= scanner_.min_range_m && range < no_return;
+    const bool has_return = limits.is_return(range);
     seen.push_back({b, code_of(has_return ? range : scanner_.max_range_m)});
   }
   rays_.clear();

@@ -27,8 +27,7 @@ void Deskewer::deskew(const LaserScan& scan, const ScannerModel& scanner, const 
   const Twist2 laser_twist = twist_of_mounted(twist, scan.vehicle_from_laser);
   const bool moves = laser_twist.is_finite() && !laser_twist.vector().isZero(0.0);
   if (!moves || !(scanner.sweep_s > 0.0) || !std::isfinite(scanner.sweep_s)) return;
-  min_range_ = scanner.min_range_m;
-  no_return_from_ = scanner.no_return_from(scan.max_range);
+  limits_ = return_limits(scan, scanner);
   prepare_directions(scan);
   const SweepTiming timing = sweep_timing(scanner, scan.ranges.size());
   carry_beams(scan, timing, laser_twist, out);
@@ -58,7 +57,7 @@ void Deskewer::carry_beams(const LaserScan& scan, const SweepTiming& timing,
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
     out.bearings[i] = scan.bearing(i) + laser_twist.omega * timing.at(i);
     const double range = scan.ranges[i];
-    if (is_return(range)) {
+    if (limits_.is_return(range)) {
       // Split along and across the turned beam: the parallax is small, however far the bearings
       // run.
       const Vector2d beam = stamp_from_then.direction(directions_[i]);
@@ -86,7 +85,7 @@ void Deskewer::find_surfaces(const LaserScan& scan, int widest) {
   const double last_slot = static_cast<double>(nearest_.size() - 1);
   std::size_t before = scan.ranges.size();  // the return before, none yet
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
-    if (!is_return(scan.ranges[i])) continue;
+    if (!limits_.is_return(scan.ranges[i])) continue;
     const std::size_t first = std::exchange(before, i);
     if (first >= i || i - first > static_cast<std::size_t>(widest)) continue;
     const double from = slot(scan.bearings[first]);
@@ -105,7 +104,7 @@ void Deskewer::find_surfaces(const LaserScan& scan, int widest) {
 void Deskewer::drop_hidden(double depth, LaserScan& scan) const {
   const double last_slot = static_cast<double>(nearest_.size() - 1);
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
-    if (!is_return(scan.ranges[i])) continue;
+    if (!limits_.is_return(scan.ranges[i])) continue;
     const double at = slot(scan.bearings[i]);
     if (!(at >= 0.0) || !(at <= last_slot)) continue;
     const double surface = std::max(nearest_[static_cast<std::size_t>(std::floor(at))],

@@ -4,6 +4,7 @@
 
 #include "adit/motion/twist.hpp"
 #include "adit/scan/laser_scan.hpp"
+#include "adit/scan/returns.hpp"
 #include "adit/scan/scanner_model.hpp"
 #include "adit/scan/sweep_timing.hpp"
 
@@ -53,12 +54,10 @@ class Deskewer {
   void lay_slots(const LaserScan& scan, double turn);
   void find_surfaces(const LaserScan& scan, int widest);
   void drop_hidden(double depth, LaserScan& scan) const;
-  bool is_return(double range) const { return range > min_range_ && range < no_return_from_; }
   /// The place of a bearing in the depth buffer, in beams from its first.
   double slot(double bearing) const { return (bearing - first_slot_) * slots_per_radian_; }
 
-  double min_range_ = 0.0;
-  double no_return_from_ = 0.0;
+  ReturnLimits limits_;
   bool evenly_spaced_ = false;  // the fan whose directions are kept
   double first_bearing_ = 0.0;
   double bearing_step_ = 0.0;

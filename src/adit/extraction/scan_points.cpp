@@ -99,11 +99,11 @@ void ScanPoints::collect(const LaserScan& scan, const ScannerModel& scanner) {
   const std::size_t n = cos_.size();
   for (auto* v : {&x_, &y_, &range_}) v->resize(n);
   beam_.resize(n);
-  no_return_from_ = scanner.no_return_from(scan.max_range);
+  limits_ = return_limits(scan, scanner);
   std::size_t count = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const double r = scan.ranges[step_ < 0.0 ? n - 1 - k : k];
-    if (!(r > scanner.min_range_m && r < no_return_from_)) continue;
+    if (!limits_.is_return(r)) continue;
     x_[count] = r * cos_[k];
     y_[count] = r * sin_[k];
     range_[count] = r;

@@ -5,6 +5,7 @@
 
 #include "adit/geometry/moments.hpp"
 #include "adit/scan/laser_scan.hpp"
+#include "adit/scan/returns.hpp"
 #include "adit/scan/scanner_model.hpp"
 
 namespace adit {
@@ -58,7 +59,7 @@ class ScanPoints {
     return {cos_[static_cast<std::size_t>(k)], sin_[static_cast<std::size_t>(k)]};
   }
   /// The range from which there are no returns (m).
-  double no_return_from() const { return no_return_from_; }
+  double no_return_from() const { return limits_.none_from_m; }
   /// Position of the beam in the counter-clockwise order of all beams.
   int beam_index(std::size_t i) const { return beam_[i]; }
   double beam_step() const { return step_; }
@@ -93,7 +94,7 @@ class ScanPoints {
   void accumulate();
 
   double first_bearing_ = 0.0;
-  double no_return_from_ = 0.0;
+  ReturnLimits limits_;
   double step_ = 0.0;
   double spacing_per_metre_ = 0.0;  // of neighbouring points, at the grazing angle
   double reach_of_noise_ = 0.0;     // four sigma of the distance between two points (m)

@@ -178,5 +178,14 @@ TEST(Error, NamesFileAndLineWhereKnown) {
   EXPECT_EQ(to_string(Error{"no", "", 0}), "no");
 }
 
+TEST(Pose2, AreNearWithinBothBounds) {
+  const Pose2 pose{1.0, 2.0, radians(179.0)};
+  const Pose2 other{1.3, 2.4, radians(-179.0)};  // 0.5 m off, turned by two degrees across pi
+  EXPECT_TRUE(is_near(pose, other, 0.51, radians(2.1)));
+  EXPECT_FALSE(is_near(pose, other, 0.49, radians(2.1)));
+  EXPECT_FALSE(is_near(pose, other, 0.51, radians(1.9)));
+  EXPECT_TRUE(is_near(pose, pose, 0.0, 0.0));
+}
+
 }  // namespace
 }  // namespace adit

@@ -62,6 +62,12 @@ inline Vector3d difference(const Pose2& from, const Pose2& to) {
   return {to.x - from.x, to.y - from.y, angle_between(from.theta, to.theta)};
 }
 
+/// Whether two poses are no farther apart than this (m) and no more turned (rad).
+inline bool is_near(const Pose2& a, const Pose2& b, double metres, double radians) {
+  const Vector3d apart = difference(a, b);
+  return apart.head<2>().norm() <= metres && std::abs(apart.z()) <= radians;
+}
+
 /// The pose with its axes, for carrying many points and directions.
 struct RigidTransform {
   explicit RigidTransform(const Pose2& pose)

@@ -33,23 +33,17 @@ inline double beam_variance(const ScannerModel& scanner, double range, double co
   return beam_variance_stretched(scanner, range, 1.0 / cos_squared, map_sigma_m);
 }
 
-/// Derivative of the predicted range with respect to (x, y, theta) of the laser in the map.
+/// Derivative of the predicted range with respect to (x, y, theta) in the map of the vehicle that
+/// carries the laser, or of the laser itself where there is no lever arm.
 ///
 /// `direction` is the beam's unit vector and `normal` the wall's unit normal (either sign), both in
-/// map axes: -(n_x, n_y, r n . d_perp) / (n . d), Censi 2007. Not finite for a wall seen edge-on.
-inline Vector3d range_gradient(double range, const Vector2d& direction, const Vector2d& normal) {
-  const double scale = -1.0 / normal.dot(direction);
-  return {scale * normal.x(), scale * normal.y(),
-          scale * range * normal.dot(perpendicular(direction))};
-}
-
-/// The laser's gradient made the gradient with respect to the pose of the vehicle that carries it.
-///
-/// `lever_arm` is the laser's position relative to the vehicle's, in map axes (m): turning the
-/// vehicle also moves the laser sideways.
-inline Vector3d vehicle_gradient(const Vector3d& laser_gradient, const Vector2d& lever_arm) {
-  return {laser_gradient.x(), laser_gradient.y(),
-          laser_gradient.z() + laser_gradient.head<2>().dot(perpendicular(lever_arm))};
+/// map axes: -(n_x, n_y, r n . d_perp + n . l_perp) / (n . d), Censi 2007. `lever_arm` l is the
+/// laser's position relative to the vehicle's, in map axes (m): turning the vehicle also moves the
+/// laser sideways. Not finite for a wall seen edge-on.
+inline Vector3d range_gradient(double range, const Vector2d& direction, const Vector2d& normal,
+                               const Vector2d& lever_arm = Vector2d::Zero()) {
+  const double across = range * cross(direction, normal) + cross(lever_arm, normal);
+  return Vector3d(normal.x(), normal.y(), across) / -normal.dot(direction);
 }
 
 }  // namespace adit

@@ -62,8 +62,8 @@ RC_GTEST_PROP(RangeGradient, IsTheNumericDerivativeOnAnyWall, ()) {
   const double offset = normal.dot(map_from_laser.translation() + range * direction);
 
   const Vector3d of_laser = range_gradient(range, direction, normal);
-  const Vector3d of_vehicle =
-      vehicle_gradient(of_laser, map_from_laser.translation() - map_from_vehicle.translation());
+  const Vector3d of_vehicle = range_gradient(
+      range, direction, normal, map_from_laser.translation() - map_from_vehicle.translation());
   RC_ASSERT(of_laser.isApprox(range_gradient(range, direction, -normal), 1e-12));
 
   constexpr double kStep = 1e-6;

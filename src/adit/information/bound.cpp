@@ -98,7 +98,7 @@ PoseBound cramer_rao(const LineMap& map, const Pose2& map_from_vehicle, const Sc
     const double cosine = std::abs(normal.dot(direction));
     const double variance = beam_variance(scanner, range, cosine, options.map_sigma_m);
     if (!(cosine > 0.0 && cosine >= min_cosine && variance > 0.0)) continue;
-    const Vector3d g = vehicle_gradient(range_gradient(range, direction, normal), lever_arm);
+    const Vector3d g = range_gradient(range, direction, normal, lever_arm);
     bound.information += g * g.transpose() / variance;
     ++bound.beams;
   }

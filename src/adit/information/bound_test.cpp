@@ -96,8 +96,8 @@ Pose2 fit(const World& world, const Pose2& start, const ScannerModel& scanner, c
     for (int beam = 0; beam < fan.count; ++beam) {
       const Vector2d direction = unit_vector(laser.theta + bearing_of(fan, beam));
       const Hit hit = cast(world, laser.translation(), direction);
-      const Vector3d g = vehicle_gradient(range_gradient(hit.range, direction, hit.normal),
-                                          laser.translation() - vehicle.translation());
+      const Vector3d g = range_gradient(hit.range, direction, hit.normal,
+                                        laser.translation() - vehicle.translation());
       const double weight =
           1.0 / beam_variance(scanner, hit.range, hit.normal.dot(direction), map_sigma_m);
       normal_matrix += weight * g * g.transpose();

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "adit/scan/returns.hpp"
+
 namespace adit {
 namespace {
 
@@ -21,12 +23,13 @@ std::uint8_t range_code(double range_m) {
 
 ScanCodes code_scan(const LaserScan& scan, const ScannerModel& scanner, double slack_m) {
   ScanCodes out;
-  const double no_return = scanner.no_return_from(scan.max_range);
+  const ReturnLimits limits = return_limits(scan, scanner);
+  const double no_return = limits.none_from_m;
   out.farthest = range_code(no_return);
   std::array<std::vector<double>, kRangeBins> bins;
   for (std::size_t i = 0; i < scan.beams_of_one_turn(); ++i) {
     const double range = scan.ranges[i];
-    const bool returned = range > 0.0 && range >= scanner.min_range_m && range < no_return;
+    const bool returned = limits.is_return(range);
     const double turns = (scan.bearing(i) + kPi) / kTwoPi;
     const double part = turns - std::floor(turns);
     const auto bin = std::min(kRangeBins - 1, static_cast<std::size_t>(part * kRangeBins));

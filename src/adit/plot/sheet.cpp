@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "adit/plot/atomic_write.hpp"
+#include "adit/io/atomic_file.hpp"
 #include "adit/plot/layout.hpp"
 #include "adit/plot/painter.hpp"
 #include "adit/plot/ticks.hpp"
@@ -98,7 +98,7 @@ Result<void> Sheet::write(const std::string& path) const {
   }
   Result<std::string> bytes = painter.finish();
   if (!bytes) return fail(bytes.error().message, path);
-  return write_picture_file(path, *bytes);
+  return write_file(path, *bytes);
 }
 
 }  // namespace adit

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "adit/information/beam.hpp"
+
 namespace adit {
 namespace {
 
@@ -38,21 +40,13 @@ Vector2d facing(const Vector2d& normal, const Vector2d& direction) {
   return normal.dot(direction) < 0.0 ? normal : Vector2d(-normal);
 }
 
-/// Of the predicted range over the vehicle's pose: the laser's gradient (Censi 2007), and what
-/// turning the vehicle adds by the lever arm. `normal` points towards the scanner.
-Vector3d range_gradient(const Vector2d& direction, const Vector2d& normal, double range,
-                        const Vector2d& lever) {
-  const double across = range * cross(direction, normal) + cross(lever, normal);
-  return Vector3d(normal.x(), normal.y(), across) / -normal.dot(direction);
-}
-
 /// How far a return may lie beyond the wall that it met for all that is in doubt (m²).
 double variance_of_miss(const WallDoubt& doubt, const Vector2d& normal, const Vector2d& direction,
                         double range, const Vector2d& lever) {
   const double bent = doubt.distortion_ratio * range;
   const double cosine = normal.dot(direction);
   const double walls = (doubt.wall_sigma_m * doubt.wall_sigma_m + bent * bent) / (cosine * cosine);
-  const Vector3d gradient = range_gradient(direction, normal, range, lever);
+  const Vector3d gradient = range_gradient(range, direction, normal, lever);
   return walls + doubt.noise_m * doubt.noise_m + gradient.dot(doubt.pose_covariance * gradient);
 }
 
@@ -63,9 +57,8 @@ void BeamResiduals::set_scan(const LaserScan& scan, const ScannerModel& scanner,
   scan_ = &scan;
   has_swept_ = false;
   missing_wall_ = missing_wall;
-  max_range_ = scanner.no_return_from(scan.max_range);
-  min_range_ = scanner.min_range_m;
-  reach_ = std::min(max_range_, longest_return() + kBeyondReturns);
+  limits_ = return_limits(scan, scanner);
+  reach_ = std::min(limits_.none_from_m, longest_return() + kBeyondReturns);
   noise_reach_ = 2.0 * scanner.beam_sigma_m();
   timing_ = sweep_timing(scanner, count);
   walls_.resize(count);
@@ -292,7 +285,7 @@ void BeamResiduals::look_from(const LineMap& map, const Station& station, const 
     out.wall_variance = met.variance;
     out.direction = direction;
     out.hit = origin + range * direction;
-    out.gradient = range_gradient(direction, out.normal, range, lever);
+    out.gradient = range_gradient(range, direction, out.normal, lever);
     out.tau = tau;
     out.beam = static_cast<int>(i);
     out.wall = met.wall->wall;

@@ -11,6 +11,7 @@
 #include "adit/refinement/sweep_path.hpp"
 #include "adit/refinement/wall_neighbours.hpp"
 #include "adit/scan/laser_scan.hpp"
+#include "adit/scan/returns.hpp"
 #include "adit/scan/scanner_model.hpp"
 #include "adit/scan/sweep_timing.hpp"
 #include "adit/visibility/visibility.hpp"
@@ -98,19 +99,15 @@ class BeamResiduals {
                         double reach);
 
   double longest_return() const;
-  bool is_return(std::size_t beam) const {
-    const double range = scan_->ranges[beam];  // not-a-number is no return
-    return range > 0.0 && range >= min_range_ && range < max_range_;
-  }
+  bool is_return(std::size_t beam) const { return limits_.is_return(scan_->ranges[beam]); }
 
   const LaserScan* scan_ = nullptr;
   bool has_swept_ = false;                 // since the scan was set: of this map, from here
   std::shared_ptr<const void> swept_map_;  // its identity
   Vector2d swept_from_ = Vector2d::Zero();
-  double reach_ = 0.0;  // how far the map is looked at (m)
-  double max_range_ = 0.0;
+  double reach_ = 0.0;        // how far the map is looked at (m)
   double noise_reach_ = 0.0;  // a residual that the scanner's noise explains (m)
-  double min_range_ = 0.0;
+  ReturnLimits limits_;
   int missing_wall_ = -1;
   SweepTiming timing_;
   double first_bearing_ = 0.0;

@@ -110,8 +110,7 @@ void PlaceSearch::choose(const RelocationOptions& options) {
   std::sort(matches_.begin(), matches_.end(), scores_more);
   for (const PlaceMatch& match : matches_) {
     const auto known = std::find_if(found_.begin(), found_.end(), [&](const PlaceMatch& better) {
-      const Vector3d apart = difference(better.map_from_laser, match.map_from_laser);
-      return apart.head<2>().norm() < kSameMetres && std::abs(apart.z()) < kSameRadians;
+      return is_near(better.map_from_laser, match.map_from_laser, kSameMetres, kSameRadians);
     });
     if (known != found_.end()) {
       if (known->agreement < match.agreement) known->map_from_laser = match.map_from_laser;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "adit/scan/returns.hpp"
+
 namespace adit {
 namespace {
 
@@ -50,11 +52,6 @@ double error_ratio(const MapError& error, const MapError& stated) {
   return stated.sigma_m() > 0.0 ? error.sigma_m() / stated.sigma_m() : 0.0;
 }
 
-bool is_near(const Pose2& a, const Pose2& b, double metres, double radians) {
-  const Vector3d apart = difference(a, b);
-  return apart.head<2>().norm() <= metres && std::abs(apart.z()) <= radians;
-}
-
 double turn_in_sight(const LaserScan& scan, const ScannerModel& scanner) {
   constexpr std::size_t kMostSectors = 72;
   // Half as many as a turn has beams, so that none falls between two of them.
@@ -62,10 +59,9 @@ double turn_in_sight(const LaserScan& scan, const ScannerModel& scanner) {
   const auto sectors =
       static_cast<std::size_t>(std::clamp(0.5 * beams, 1.0, static_cast<double>(kMostSectors)));
   std::array<bool, kMostSectors> seen{};
-  const double no_return = scanner.no_return_from(scan.max_range);
+  const ReturnLimits limits = return_limits(scan, scanner);
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
-    const double range = scan.ranges[i];
-    if (!(range > 0.0 && range >= scanner.min_range_m && range < no_return)) continue;
+    if (!limits.is_return(scan.ranges[i])) continue;
     const double turns = scan.bearing(i) / kTwoPi;
     const auto sector =
         static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(sectors));

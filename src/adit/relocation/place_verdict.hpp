@@ -12,9 +12,6 @@ namespace adit {
 /// stated.
 double error_ratio(const MapError& error, const MapError& stated);
 
-/// Whether two poses are no farther apart than this (m, rad).
-bool is_near(const Pose2& a, const Pose2& b, double metres, double radians);
-
 /// The share of all bearings in which something came back.
 double turn_in_sight(const LaserScan& scan, const ScannerModel& scanner);
 

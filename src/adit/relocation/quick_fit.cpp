@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "adit/relocation/wide_vectors.hpp"
+#include "adit/scan/returns.hpp"
 
 namespace adit {
 namespace {
@@ -140,12 +141,12 @@ ADIT_WIDE float weight_at(const WallField& field, std::span<const QuickFit::Retu
 void QuickFit::set_scan(const LaserScan& scan, const ScannerModel& scanner, std::size_t beams) {
   returns_.clear();
   count_ = 0;
-  const double no_return = scanner.no_return_from(scan.max_range);
+  const ReturnLimits limits = return_limits(scan, scanner);
   const std::size_t count = scan.beams_of_one_turn();
   const std::size_t stride = std::max<std::size_t>(1, count / std::max<std::size_t>(1, beams));
   for (std::size_t i = 0; i < count; i += stride) {
     const double range = scan.ranges[i];
-    if (!(range > 0.0 && range >= scanner.min_range_m && range < no_return)) continue;
+    if (!limits.is_return(range)) continue;
     const Vector2d point = range * unit_vector(scan.bearing(i));
     const std::size_t lane = count_++ % kLanes;
     if (lane == 0) returns_.emplace_back();

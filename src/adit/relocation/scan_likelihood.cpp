@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "adit/scan/returns.hpp"
+
 namespace adit {
 namespace {
 
@@ -35,7 +37,8 @@ Matrix product(const Matrix& a, const Matrix& b) {
 void ScanLikelihood::set_scan(const LaserScan& scan, const ScannerModel& scanner,
                               const MapError& error, const LikelihoodOptions& options) {
   options_ = options;
-  reach_ = scanner.no_return_from(scan.max_range);
+  const ReturnLimits limits = return_limits(scan, scanner);
+  reach_ = limits.none_from_m;
   noise_ = std::max(1e-6, scanner.beam_sigma_m() * scanner.beam_sigma_m());
   const std::size_t count = scan.beams_of_one_turn();
   const std::size_t stride =
@@ -46,7 +49,7 @@ void ScanLikelihood::set_scan(const LaserScan& scan, const ScannerModel& scanner
   beams_.clear();
   for (std::size_t i = 0; i < count; i += stride) {
     const double range = scan.ranges[i];
-    const bool has_return = range > 0.0 && range >= scanner.min_range_m && range < reach_;
+    const bool has_return = limits.is_return(range);
     beams_.push_back({scan.bearing(i), has_return ? range : reach_, has_return});
   }
   stated_noise_ = error.sigma_m() * error.sigma_m();

@@ -174,8 +174,7 @@ class TargetSearch {
         stiffness.eigenvalues()(0) < options_.least_stiffness * stiffness.eigenvalues()(1)) {
       return std::nullopt;
     }
-    const Vector3d off = difference(peak.pose, fit.target_from_source);
-    if (off.head<2>().norm() > 0.4 || std::abs(off.z()) > 0.15) return std::nullopt;
+    if (!is_near(peak.pose, fit.target_from_source, 0.4, 0.15)) return std::nullopt;
     if (!fit.information.allFinite() || fit.information(2, 2) <= 0.0) return std::nullopt;
     Matrix3d covariance =
         (fit.information + Vector3d(1.0, 1.0, 1.0).asDiagonal().toDenseMatrix()).inverse();

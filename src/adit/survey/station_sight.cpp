@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adit/scan/returns.hpp"
+
 namespace adit {
 namespace {
 
@@ -18,13 +20,13 @@ std::size_t sector_of(double bearing) {
 
 void StationSight::add(const LaserScan& scan, double turn, const ScannerModel& scanner) {
   gathered_.resize(kSectors);
-  const double none_from = scanner.no_return_from(scan.max_range);
+  const ReturnLimits limits = return_limits(scan, scanner);
   // A machine that turns carries its scanner about; all is told as seen from the first eye.
   const RigidTransform laser(Pose2{0.0, 0.0, turn} * scan.vehicle_from_laser);
   std::vector<float> nearest(kSectors, 0.0F);
   for (std::size_t i = 0; i < scan.beams_of_one_turn(); ++i) {
     const double range = scan.ranges[i];
-    if (!scan.has_return(i) || range >= none_from || range < scanner.min_range_m) continue;
+    if (!limits.is_return(range)) continue;
     const Vector2d way = laser.point(range * unit_vector(scan.bearing(i))) - eye_;
     float& at = nearest[sector_of(std::atan2(way.y(), way.x()))];
     const auto here = static_cast<float>(way.norm());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adit/scan/returns.hpp"
+
 namespace adit {
 namespace {
 
@@ -89,12 +91,12 @@ void BeamEvidence::look_through(const PosedScan& posed, int visit) {
   const LaserScan& scan = posed.scan;
   const Pose2 map_from_laser = posed.map_from_vehicle * scan.vehicle_from_laser;
   const Vector2d origin = map_from_laser.translation();
-  const double none_from = scanner_.no_return_from(scan.max_range);
+  const ReturnLimits limits = return_limits(scan, scanner_);
   const std::size_t beams = scan.beams_of_one_turn();
   for (std::size_t i = 0; i < beams; ++i) {
     const double range = scan.ranges[i];
     // A beam without return went somewhere, but some surfaces swallow beams: it says nothing.
-    if (!scan.has_return(i) || range >= none_from || range < scanner_.min_range_m) continue;
+    if (!limits.is_return(range)) continue;
     const Vector2d direction = unit_vector(map_from_laser.theta + scan.bearing(i));
     const double clear = range - 2.0 * through_m_;
     double step = 0.0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adit/scan/returns.hpp"
+
 namespace adit {
 namespace {
 
@@ -39,12 +41,12 @@ const std::vector<WallHit>& WallHitFinder::find(const PosedScan& posed) {
 
 void WallHitFinder::gather_points(const LaserScan& scan) {
   const std::size_t beams = scan.beams_of_one_turn();
-  const double none_from = scanner_.no_return_from(scan.max_range);
+  const ReturnLimits limits = return_limits(scan, scanner_);
   points_.resize(beams);
   ranges_.resize(beams);
   for (std::size_t i = 0; i < beams; ++i) {
     const double range = scan.ranges[i];
-    const bool met = scan.has_return(i) && range < none_from && range >= scanner_.min_range_m;
+    const bool met = limits.is_return(range);
     ranges_[i] = met ? range : -1.0;
     points_[i] = met ? Vector2d(range * unit_vector(scan.bearing(i))) : Vector2d(0.0, 0.0);
   }
