@@ -6,7 +6,7 @@
 
 #include "adit/localizer/dead_reckoner.hpp"
 #include "adit/localizer/fitter.hpp"
-#include "adit/localizer/mine_search.hpp"
+#include "adit/localizer/search_beside.hpp"
 #include "adit/localizer/settings.hpp"
 #include "adit/recovery/hypotheses.hpp"
 #include "adit/tracking/pose_tracker.hpp"
@@ -103,7 +103,7 @@ class Belief {
   std::optional<Rival> rival_;
   Trust trust_;
   Hypotheses hypotheses_;
-  MineSearch search_;
+  SearchBeside search_;
 
   bool is_clear_ = true;       // the map explained nearly all of the last scan
   bool is_doubled_ = false;    // the plan has walls twice there

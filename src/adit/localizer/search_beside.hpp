@@ -13,11 +13,11 @@ namespace adit {
 
 /// The search in the whole mine that runs beside the cycle: when it begins, at which scan its
 /// answer is taken, and the way since the scan that is looked for.
-class MineSearch {
+class SearchBeside {
  public:
   /// Map and settings must outlive it.
-  MineSearch(const LineMap& map, const LocalizerSettings& settings,
-             std::shared_ptr<const PlaceIndex> places)
+  SearchBeside(const LineMap& map, const LocalizerSettings& settings,
+               std::shared_ptr<const PlaceIndex> places)
       : settings_(settings), finder_(map, std::move(places)) {}
 
   /// Forgets all; waits for a search that is under way.

@@ -1,15 +1,15 @@
-#include "adit/localizer/mine_search.hpp"
+#include "adit/localizer/search_beside.hpp"
 
 #include <algorithm>
 
 namespace adit {
 
-void MineSearch::reset() {
+void SearchBeside::reset() {
   finder_.wait_and_drop();
   schedule_ = doubts_ = SearchSchedule{};
 }
 
-void MineSearch::begin(const RelocationQuery& query, bool is_doubt, double explained) {
+void SearchBeside::begin(const RelocationQuery& query, bool is_doubt, double explained) {
   finder_.begin(query, finder_options());
   schedule_.begin(settings_.recovery);
   is_doubt_ = is_doubt;
@@ -17,7 +17,7 @@ void MineSearch::begin(const RelocationQuery& query, bool is_doubt, double expla
   since_begun_.start({});
 }
 
-PlaceFinderOptions MineSearch::finder_options() const {
+PlaceFinderOptions SearchBeside::finder_options() const {
   RelocationOptions relocation = settings_.relocation;
   for (int* most : {&relocation.listed, &relocation.refined, &relocation.fitted_again,
                     &relocation.rated_again}) {
