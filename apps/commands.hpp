@@ -25,6 +25,11 @@ struct SimulateArguments {
   std::string scanner = "cyclone";
   std::uint64_t seed = 1;
   int clutter = 0;
+  std::string clutter_kind = "free";
+  int ramps = 0;
+  std::optional<double> machine_ahead;  ///< m
+  std::optional<std::string> as_built;  ///< key=number,…
+  std::vector<double> off_plan;         ///< x, y, radius (m)
   std::optional<double> speed;
   std::optional<double> sweep;
   std::vector<double> odometry;  ///< ratio, degrees per metre, ratio of turns

@@ -21,16 +21,44 @@ void add_demo(CLI::App& app, adit::DemoArguments& args, Action& action) {
   command->callback([&] { action = [&] { return run_demo(args); }; });
 }
 
+/// What the mine has that its plan has not.
+void add_world_changes(CLI::App* command, adit::SimulateArguments& args) {
+  command->add_option("--clutter", args.clutter, "boxes and people that no plan shows")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 10000));
+  command
+      ->add_option("--clutter-kind", args.clutter_kind,
+                   "free: boxes and people beside the way; at walls: against, piercing, along, "
+                   "rows (each lines 15 m of the way), mixed; groups: three who walk")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"free", "against", "piercing", "along", "rows", "mixed", "groups"}));
+  command->add_option("--ramps", args.ramps, "ramps on the way, where beams meet floor or roof")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1000));
+  command
+      ->add_option("--machine-ahead", args.machine_ahead,
+                   "a machine of 2.5 x 1.8 m drives so many metres ahead on the way")
+      ->check(CLI::Range(3.0, 100.0));
+  command->add_option("--as-built", args.as_built,
+                      "how the mine differs from its plan: bend=M,reach=M,rough=M,missing=SHARE,"
+                      "added=SHARE,chains=SHARE,offset=M,distortion=STRAIN, each optional");
+  command
+      ->add_option("--off-plan", args.off_plan,
+                   "x,y,radius in m: the plan lacks what lies in this circle")
+      ->delimiter(',')
+      ->expected(3)
+      ->check(CLI::Number);
+}
+
 void add_simulate(CLI::App& app, adit::SimulateArguments& args, Action& action) {
   CLI::App* command = app.add_subcommand(
-      "simulate", "Drive through a simulated mine: plan.csv, log.clf, truth.tum, config.toml");
+      "simulate",
+      "Drive through a simulated mine: plan.csv, mine.csv, log.clf, truth.tum, config.toml");
   command->add_option("world", args.world, "mockup, panel, drift, or a plan's file (with --path)")
       ->required();
   command->add_option("-o,--output", args.output, "folder for the results")->required();
   command->add_option("--seed", args.seed, "seed of everything random")->capture_default_str();
-  command->add_option("--clutter", args.clutter, "boxes and people that no plan shows")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 10000));
+  add_world_changes(command, args);
   command->add_option("--scanner", args.scanner, "cyclone, sick, sick_lms or hokuyo")
       ->capture_default_str();
   command->add_option("--path", args.path, "TUM file of the poses to drive along");

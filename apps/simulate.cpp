@@ -4,7 +4,7 @@
 #include "adit/io/carmen.hpp"
 #include "adit/io/plan.hpp"
 #include "adit/io/trajectory.hpp"
-#include "adit/simulation/clutter.hpp"
+#include "adit/simulation/machine_ahead.hpp"
 #include "adit/simulation/mine_worlds.hpp"
 #include "adit/simulation/timed_path.hpp"
 #include "adit/simulation/vehicle.hpp"
@@ -12,6 +12,7 @@
 #include "output_folder.hpp"
 #include "recording_log.hpp"
 #include "report_error.hpp"
+#include "world_changes.hpp"
 
 namespace adit {
 namespace {
@@ -23,6 +24,7 @@ struct Scene {
   ScannerSpec scanner;
   DriveOptions drive;
   bool stops = false;
+  double plan_sigma_m = 0.0;
 };
 
 Result<World> world_named(const SimulateArguments& arguments) {
@@ -78,17 +80,32 @@ Result<Scene> make_scene(const SimulateArguments& arguments) {
   auto world = world_named(arguments);
   if (!world) return tl::unexpected(world.error());
   scene.world = std::move(*world);
+  const auto sigma = change_world(arguments, scene.world);
+  if (!sigma) return tl::unexpected(sigma.error());
+  scene.plan_sigma_m = *sigma;
+  if (const auto done = furnish(arguments, scene.world); !done) return tl::unexpected(done.error());
   return scene;
+}
+
+/// Where the vehicle is at what time, but for hops.
+TimedPath drive_of(const Scene& scene) {
+  const DriveOptions& drive = scene.drive;
+  if (!scene.stops) {
+    return drive_along(scene.world.path, drive.speed_m_per_s, drive.turn_rate_rad_per_s);
+  }
+  TimedPath stops;
+  for (const Pose2& pose : scene.world.path) {
+    const auto before = static_cast<double>(stops.knots.size());
+    stops.knots.push_back({before * drive.stop_interval_s, pose});
+  }
+  return stops;
 }
 
 /// An Error where the drive would bring home more scans than a computer holds.
 Result<void> check_size(const Scene& scene) {
   const DriveOptions& drive = scene.drive;
-  const double scans =
-      scene.stops
-          ? static_cast<double>(scene.world.path.size())
-          : drive_along(scene.world.path, drive.speed_m_per_s, drive.turn_rate_rad_per_s).end() *
-                drive.scan_rate_hz;
+  const double scans = scene.stops ? static_cast<double>(scene.world.path.size())
+                                   : drive_of(scene).end() * drive.scan_rate_hz;
   if (scans <= kMostScans) return {};
   return fail(fmt::format("the path and the speed make {:.3g} scans; at most {:.0f} are simulated",
                           scans, kMostScans));
@@ -99,11 +116,12 @@ Result<void> write_scene(const std::string& folder, const Scene& scene,
   Configuration configuration;
   configuration.localizer.scanner = scene.scanner.model;
   configuration.localizer.odometry = scene.drive.odometry;
-  configuration.localizer.map.sigma_m = plan_error(scene.world);
+  configuration.localizer.map.sigma_m = scene.plan_sigma_m;
   using Path = const std::string&;
   return write_all(
       folder,
       {{"plan.csv", [&](Path path) { return write_plan(scene.world.plan, path); }},
+       {"mine.csv", [&](Path path) { return write_plan(scene.world.walls, path); }},
        {"log.clf", [&](Path path) { return write_carmen(to_log(recording, scene.scanner), path); }},
        {"truth.tum", [&](Path path) { return write_trajectory(recording.truth, path); }},
        {"config.toml", [&](Path path) {
@@ -117,7 +135,9 @@ int run_simulate(const SimulateArguments& arguments) {
   auto scene = make_scene(arguments);
   if (!scene) return report(scene.error(), scene.error().file.empty() ? kWrongCall : kFailed);
   if (const auto fits = check_size(*scene); !fits) return report(fits.error());
-  const int pieces = add_clutter(scene->world, clutter_of(arguments.clutter), arguments.seed);
+  if (arguments.machine_ahead) {
+    add_machine_ahead(scene->world, drive_of(*scene), {.gap_m = *arguments.machine_ahead});
+  }
   const Recording recording = scene->stops
                                   ? record_stops(scene->world, scene->world.path, scene->scanner,
                                                  scene->drive, arguments.seed)
@@ -126,10 +146,7 @@ int run_simulate(const SimulateArguments& arguments) {
   if (const auto written = write_scene(arguments.output, *scene, recording); !written) {
     return report(written.error());
   }
-  if (pieces < arguments.clutter) {
-    fmt::print(stderr, "adit: room for {} of {} pieces of clutter\n", pieces, arguments.clutter);
-  }
-  fmt::print("{} scans; wrote plan.csv, log.clf, truth.tum, config.toml to {}\n",
+  fmt::print("{} scans; wrote plan.csv, mine.csv, log.clf, truth.tum, config.toml to {}\n",
              recording.scans.size(), arguments.output);
   return kDone;
 }

@@ -63,6 +63,19 @@ statuses() {
   absent d
   expect 2 simulate mockup -o d --clutter many
   expect 2 simulate mockup -o d --clutter -3
+  expect 2 simulate mockup -o d --clutter-kind heaps
+  local built
+  for built in '' bend bend= bend=x bend=-1 bend=nan bend=0.1m bent=0.1 bend=0.1,bend=0.2 bend=0.1, reach=0 missing=1.5; do
+    expect 2 simulate mockup -o d --as-built "$built"
+  done
+  expect 2 simulate mockup -o d --as-built bend=0.1,bent=0.1
+  says "no key 'bent': bend, reach, rough"
+  expect 2 simulate mockup -o d --as-built missing=1.5
+  says 'missing=1.5 is no number from 0 to 1'
+  for built in 1,2 1,2,x 1,2,3,4 1,2,nan 1,2,-3 1,2,0; do expect 2 simulate mockup -o d --off-plan "$built"; done
+  expect 2 simulate mockup -o d --off-plan 10,15,100
+  says 'nothing of the plan'
+  absent d
   expect 2 evaluate --estimate e.tum
   expect 2 evaluate
   expect 2 map
@@ -387,6 +400,46 @@ repeat() {
   # over a result that is there
   expect 0 localize --map a/plan.csv --log a/log.clf --config a/config.toml -o one
   cmp one/estimates.csv two/estimates.csv
+}
+
+as_built() {
+  # a plain world's mine is its plan, and zero is nothing
+  expect 0 simulate mockup --seed 3 -o plain
+  expect 0 simulate mockup --seed 3 --as-built bend=0,chains=0 -o zero
+  cmp plain/plan.csv plain/mine.csv
+  local file
+  for file in plan.csv mine.csv log.clf truth.tum config.toml; do cmp plain/$file zero/$file; done
+  grep -q '^sigma_m = 0.0*$' plain/config.toml || die 'an exact plan is not stated as such'
+  local differs=bend=0.15,reach=8,rough=0.05,missing=0.02,added=0.02,chains=0.05,distortion=0.001
+  expect 0 simulate mockup --seed 3 --as-built $differs -o a
+  expect 0 simulate mockup --seed 3 --as-built $differs -o b
+  for file in plan.csv mine.csv log.clf truth.tum config.toml; do cmp a/$file b/$file; done
+  cmp plain/plan.csv a/plan.csv
+  [ "$(lines_of a/mine.csv)" -gt 300 ] || die 'the walls are not bent'
+  # 0.15, 0.1 / sqrt 2, 0.3 sqrt 0.05
+  in_range sigma_m "$(awk '$1 == "sigma_m" { print $3 }' a/config.toml)" 0.178 0.180
+  expect 0 localize --map a/mine.csv --log a/log.clf --config a/config.toml -o in_mine
+  judged in_mine/estimates.csv a/truth.tum 0.2 1.5
+  # a part that the plan lacks
+  expect 0 simulate mockup --seed 3 --off-plan 3.5,25,4 -o off
+  cmp plain/log.clf off/log.clf
+  cmp plain/mine.csv off/mine.csv
+  awk -F, 'NR > 1 && ($1 - 3.5) ^ 2 + ($2 - 25) ^ 2 < 15.99 { exit 1 }' off/plan.csv || die 'walls in the circle'
+  expect 0 simulate mockup --off-plan -3.5,2,4 -o off
+  # what stands and drives about
+  local kind
+  for kind in against piercing along rows mixed groups; do
+    expect 0 simulate mockup --seed 3 --clutter 8 --clutter-kind $kind --speed 1 -o $kind
+    ! cmp -s $kind/log.clf plain/log.clf || die "$kind changes nothing"
+    cmp plain/mine.csv $kind/mine.csv
+  done
+  expect 0 simulate mockup --seed 3 --speed 1 -o driven
+  expect 0 simulate mockup --seed 3 --speed 1 --machine-ahead 5 -o behind
+  ! cmp -s driven/log.clf behind/log.clf || die 'no machine ahead'
+  expect 0 simulate panel --seed 3 --scanner sick --speed 4 -o level
+  expect 0 simulate panel --seed 3 --scanner sick --speed 4 --ramps 2 -o sloped
+  cmp level/truth.tum sloped/truth.tum
+  ! cmp -s level/log.clf sloped/log.clf || die 'no ramp'
 }
 
 negative_start() {

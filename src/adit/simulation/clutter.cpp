@@ -6,12 +6,12 @@
 
 #include "adit/simulation/random.hpp"
 #include "adit/simulation/ray_caster.hpp"
+#include "adit/simulation/way.hpp"
 
 namespace adit {
 namespace {
 
 constexpr int kTries = 400;            // for one piece
-constexpr double kLongestLink = 3.0;   // m: poses further apart are not joined by a drive
 constexpr double kWalkingSpeed = 1.2;  // m/s
 constexpr std::uint64_t kClutterStream = 3;
 
@@ -20,23 +20,6 @@ struct Place {
   Segment middle;
   double radius = 0.0;
 };
-
-double distance_between(const Segment& s, const Segment& t) {
-  const double range = cast_ray(t, s.a, (s.b - s.a).normalized());
-  if (s.length() > 0.0 && range <= s.length()) return 0.0;
-  return std::min({distance(s, t.a), distance(s, t.b), distance(t, s.a), distance(t, s.b)});
-}
-
-/// The vehicle's way as segments; a pose far from the next one stands for itself.
-std::vector<Segment> way_of(const std::vector<Pose2>& path) {
-  std::vector<Segment> way;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    const Vector2d here = path[i].translation();
-    const Vector2d next = i + 1 < path.size() ? path[i + 1].translation() : here;
-    way.push_back({here, (next - here).norm() <= kLongestLink ? next : here});
-  }
-  return way;
-}
 
 class Placer {
  public:

@@ -188,8 +188,8 @@ Recording record_stops(const World& world, std::span<const Pose2> stops, const S
     }
     const double stamp = options.stop_interval_s * static_cast<double>(i);
     recording.truth.push_back({stamp, stops[i] * hops[i]});
-    LaserScan scan =
-        simulate_scan(fixed, recording.truth.back().pose, spec, scans, people_at(world, stamp));
+    const StampedPose& truth = recording.truth.back();
+    LaserScan scan = simulate_scan(fixed, truth.pose, spec, scans, passing_segments(world, truth));
     scan.stamp = stamp;
     recording.scans.push_back(std::move(scan));
   }
@@ -207,8 +207,8 @@ Recording record_drive(const World& world, std::span<const Pose2> path, const Sc
   Random scans(seed, kScans);
   for (const double stamp : scan_stamps(truth, spec, options.scan_rate_hz)) {
     recording.truth.push_back({stamp, truth.at(stamp)});
-    recording.scans.push_back(
-        simulate_sweep(fixed, truth, stamp, spec, scans, people_at(world, stamp)));
+    recording.scans.push_back(simulate_sweep(fixed, truth, stamp, spec, scans,
+                                             passing_segments(world, recording.truth.back())));
   }
   recording.first_guess = draw_first_guess(recording.truth.front().pose, options, seed);
   add_odometry(without_jumps(truth), options, seed, recording);

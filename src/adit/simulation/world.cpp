@@ -43,6 +43,30 @@ std::vector<Segment> people_at(const World& world, double stamp) {
   return all;
 }
 
+std::vector<Segment> movers_at(const World& world, double stamp) {
+  std::vector<Segment> all;
+  for (const Mover& mover : world.movers) {
+    if (mover.way.knots.empty() || stamp < mover.way.begin() || stamp > mover.way.end()) continue;
+    const Pose2 pose = mover.way.at(stamp);
+    std::vector<Vector2d> corners;
+    for (const Vector2d& corner : mover.body) corners.push_back(pose * corner);
+    const std::vector<Segment> body = outline(corners);
+    all.insert(all.end(), body.begin(), body.end());
+  }
+  return all;
+}
+
+std::vector<Segment> passing_segments(const World& world, const StampedPose& map_from_vehicle) {
+  std::vector<Segment> all = people_at(world, map_from_vehicle.stamp);
+  const std::vector<Segment> movers = movers_at(world, map_from_vehicle.stamp);
+  all.insert(all.end(), movers.begin(), movers.end());
+  for (const Ramp& ramp : world.ramps) {
+    const std::vector<Segment> cuts = cuts_of(ramp, map_from_vehicle.pose.translation());
+    all.insert(all.end(), cuts.begin(), cuts.end());
+  }
+  return all;
+}
+
 std::vector<Segment> outline(std::span<const Vector2d> points) {
   std::vector<Segment> closed;
   closed.reserve(points.size());

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "adit/geometry/segment.hpp"
+#include "adit/simulation/ramp.hpp"
+#include "adit/simulation/timed_path.hpp"
 
 namespace adit {
 
@@ -16,12 +18,21 @@ struct Person {
   double diameter = 0.45;  ///< m
 };
 
+/// A rigid body that drives, such as another machine: there from the first knot of its way to the
+/// last, else nowhere.
+struct Mover {
+  std::vector<Vector2d> body;  ///< its corners in its own frame, x ahead (m)
+  TimedPath way;               ///< map_from_body
+};
+
 /// A place to drive in: the truth, and what the map says of it. Metres, map frame.
 struct World {
   std::vector<Segment> plan;     ///< what the map says
   std::vector<Segment> walls;    ///< what the scanner meets of it
   std::vector<Segment> clutter;  ///< things that stand about and are in no plan
   std::vector<Person> people;    ///< people who move about
+  std::vector<Mover> movers;     ///< machines that drive about
+  std::vector<Ramp> ramps;       ///< floors that are not level
   std::vector<Pose2> path;       ///< a drive along the middle of the openings; may be empty
 };
 
@@ -30,6 +41,13 @@ std::vector<Segment> fixed_segments(const World& world);
 
 /// Outlines of the people at a time (s), eight sides each.
 std::vector<Segment> people_at(const World& world, double stamp);
+
+/// Outlines of the movers that are there at a time (s).
+std::vector<Segment> movers_at(const World& world, double stamp);
+
+/// All that a vehicle meets at this time and nowhere to stay: people, movers, and the lines where
+/// ramps cut its scanner's plane.
+std::vector<Segment> passing_segments(const World& world, const StampedPose& map_from_vehicle);
 
 /// The closed outline through the points.
 std::vector<Segment> outline(std::span<const Vector2d> points);
