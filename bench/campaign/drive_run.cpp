@@ -22,7 +22,7 @@ class BoundAlong {
   void add(std::size_t scan, const JudgedAnswer& answer, Counting& counting) {
     if (scan % every_ != 0 || !answer.is_answer() || answer.is_wrong()) return;
     const StampedPose& truth = scene_.recording.truth[scan];
-    std::vector<Segment> others = people_at(scene_.world, truth.stamp);
+    std::vector<Segment> others = passing_segments(scene_.world, truth);
     others.insert(others.end(), scene_.world.clutter.begin(), scene_.world.clutter.end());
     const auto variance =
         bound_.position_variance(scene_.recording.scans[scan], truth.pose, others);

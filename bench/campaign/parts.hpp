@@ -23,6 +23,9 @@ void add_things(const Cell& cell, std::uint64_t seed, Scene& scene);
 /// Spoils the recorded odometry.
 void spoil_wheels(const Cell& cell, std::uint64_t seed, Scene& scene);
 
+/// Within so much of a place (m) the plan has nothing, where it lacks a part.
+inline constexpr double kOffPlanRadius = 15.0;
+
 /// Mounts the scanner as it is, before the drive is recorded.
 void mount_scanner(const Cell& cell, Scene& scene);
 

@@ -1,5 +1,8 @@
 #include "scene.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "../splice.hpp"
 #include "parts.hpp"
 
@@ -47,6 +50,18 @@ std::size_t mark_in_sight(const Scene& scene) {
   return scene.recording.truth.size() - 1;
 }
 
+/// Where the machine enters what the plan lacks, and where it first is out of it again.
+void find_missing_part(Scene& scene) {
+  const auto& truth = scene.recording.truth;
+  const auto is_inside = [&](const StampedPose& pose) {
+    return (pose.pose.translation() - *scene.missing).norm() < kOffPlanRadius;
+  };
+  const auto in = std::find_if(truth.begin(), truth.end(), is_inside);
+  const auto out = std::find_if_not(in, truth.end(), is_inside);
+  scene.fault_at = static_cast<std::size_t>(in - truth.begin());
+  scene.news_at = static_cast<std::size_t>(out - truth.begin());
+}
+
 }  // namespace
 
 LocalizerSettings settings_of(const Cell& cell) {
@@ -79,6 +94,7 @@ Result<Scene> make_scene(const Cell& cell, Grounds& grounds, std::uint64_t base_
   spoil_wheels(cell, seed, scene);
   spoil_scans(cell, seed, scene);
   if (!choose_start(cell, seed, scene)) return fail("there is no wrong start");
+  if (scene.missing) find_missing_part(scene);
   if (!scene.ground->bare.empty()) scene.news_at = mark_in_sight(scene);
   return scene;
 }

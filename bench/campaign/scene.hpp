@@ -21,8 +21,9 @@ struct Scene {
   ScannerSpec scanner;  ///< as it is mounted and errs
   DriveOptions drive;
   LocalizerSettings settings;
-  std::vector<Pose2> path;   ///< of the drive
-  std::vector<Pose2> after;  ///< where the machine is carried off to, and drives on
+  std::vector<Pose2> path;          ///< of the drive
+  std::vector<Pose2> after;         ///< where the machine is carried off to, and drives on
+  std::optional<Vector2d> missing;  ///< the middle of what the plan lacks
   Recording recording;
   std::vector<std::optional<Pose2>> odometry;  ///< of each scan, as far as there is any
   std::optional<PoseWithCovariance> start;     ///< none: it may be anywhere

@@ -47,9 +47,13 @@ bool is_scanner_faulty(const Cell& cell) {
          cell.fault != ScannerFault::dropouts;
 }
 
-/// Ways until found are of drives that do not begin with a pose that is right.
-std::string found_text(const Pooled& p, bool is_sought) {
-  if (!is_sought) return "";
+/// Whether the pose is not known all along, so that there is a way until it is found.
+bool is_sought(const Cell& cell) {
+  return cell.start != Start::right || cell.plan == PlanError::off_plan;
+}
+
+std::string found_text(const Pooled& p, bool has_way) {
+  if (!has_way) return "";
   return fmt::format("{} m; {:.0f} / {:.0f} / {:.0f} %", number(p.median_found(), 1),
                      100.0 * p.found_within(10.0), 100.0 * p.found_within(15.0),
                      100.0 * p.found_within(30.0));
@@ -66,7 +70,7 @@ std::string silence_text(const Pooled& p) {
                      number(silences.largest(), 0), number(silences.quantile(0.5), 1));
 }
 
-std::string drive_row(std::string_view name, const Pooled& p, bool is_sought) {
+std::string drive_row(std::string_view name, const Pooled& p, bool has_way) {
   const DriveCounts& s = p.sum;
   const std::int64_t confirmed = s.scans - s.unconfirmed;
   const auto judged = static_cast<double>(s.judged);
@@ -79,7 +83,7 @@ std::string drive_row(std::string_view name, const Pooled& p, bool is_sought) {
       number(s.levels.quantile(0.5), 2), number(s.levels.quantile(0.95), 2),
       number(ratio(s.error_m, judged), 3), number(std::sqrt(ratio(s.squares_m2, s.bound_m2)), 2),
       number(ratio(s.nees_x, judged), 2), number(ratio(s.nees_y, judged), 2),
-      number(ratio(s.nees_heading, judged), 2), found_text(p, is_sought),
+      number(ratio(s.nees_heading, judged), 2), found_text(p, has_way),
       number(1e6 * s.seconds.quantile(0.5), 0), number(1e6 * s.seconds.quantile(0.99), 0));
 }
 
@@ -147,7 +151,7 @@ std::string table_text(std::span<const CellResults> results) {
       singles += single_row(cell->name, p);
       continue;
     }
-    drives += drive_row(cell->name, p, cell->start != Start::right);
+    drives += drive_row(cell->name, p, is_sought(*cell));
     if (is_scanner_faulty(*cell)) continue;
     for (const DriveCounts& counts : one.drives) all.add(counts);
   }

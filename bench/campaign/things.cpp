@@ -1,35 +1,44 @@
 #include <algorithm>
 
 #include "adit/simulation/clutter.hpp"
+#include "adit/simulation/machine_ahead.hpp"
+#include "adit/simulation/ramps_on_way.hpp"
+#include "adit/simulation/wall_clutter.hpp"
 #include "parts.hpp"
 
 namespace adit {
 namespace {
 
-ClutterOptions clutter_options(Clutter clutter) {
+/// Pieces that stand free, five boxes to three people.
+int pieces(Clutter clutter) {
   switch (clutter) {
     case Clutter::none:
-      return clutter_of(0);
-    case Clutter::five:
-      return clutter_of(5);
-    case Clutter::eight:
-      return clutter_of(8);
-    case Clutter::twelve:
-      return clutter_of(12);
-    case Clutter::twenty:
     case Clutter::leaning:
-      return clutter_of(20);
+      return 0;
+    case Clutter::five:
     case Clutter::walkers:
-      return clutter_of(5);
     case Clutter::machine_ahead:
-      return clutter_of(5);
+      return 5;
+    case Clutter::eight:
+      return 8;
+    case Clutter::twelve:
+      return 12;
+    case Clutter::twenty:
+      return 20;
   }
-  return clutter_of(0);
+  return 0;
+}
+
+void add_to(World& world, Clutter clutter, std::uint64_t seed) {
+  add_clutter(world, clutter_of(pieces(clutter)), seed);
+  WallClutterOptions at_walls;
+  if (clutter == Clutter::leaning) at_walls.against = at_walls.piercing = 10;
+  if (clutter == Clutter::walkers) at_walls.groups = 2;
+  add_wall_clutter(world, at_walls, seed);
 }
 
 /// Clutter beside a way: farther walls are in nobody's way.
-void add_beside(const std::vector<Pose2>& way, const ClutterOptions& options, std::uint64_t seed,
-                World& mine) {
+void add_beside(const std::vector<Pose2>& way, Clutter clutter, std::uint64_t seed, World& mine) {
   constexpr double kNearby = 30.0;  // m
   if (way.empty()) return;
   World near;
@@ -42,17 +51,30 @@ void add_beside(const std::vector<Pose2>& way, const ClutterOptions& options, st
     });
     if (is_near) near.walls.push_back(wall);
   }
-  add_clutter(near, options, seed);
+  add_to(near, clutter, seed);
   mine.clutter = std::move(near.clutter);
   mine.people = std::move(near.people);
+}
+
+void add_machine(Scene& scene) {
+  const TimedPath way =
+      drive_along(scene.path, scene.drive.speed_m_per_s, scene.drive.turn_rate_rad_per_s);
+  add_machine_ahead(scene.world, way, {});
+}
+
+void add_ramps(std::uint64_t seed, Scene& scene) {
+  constexpr int kRamps = 3;
+  scene.world.path = scene.path;
+  lay_ramps(scene.world, kRamps, seed);
 }
 
 }  // namespace
 
 void add_things(const Cell& cell, std::uint64_t seed, Scene& scene) {
-  const ClutterOptions options = clutter_options(cell.clutter);
-  add_beside(scene.path, options, seed, scene.world);
-  add_beside(scene.after, options, seed + 1, scene.world);
+  add_beside(scene.path, cell.clutter, seed, scene.world);
+  add_beside(scene.after, cell.clutter, seed + 1, scene.world);
+  if (cell.clutter == Clutter::machine_ahead) add_machine(scene);
+  if (cell.fault == ScannerFault::ramps) add_ramps(seed, scene);
 }
 
 }  // namespace adit
