@@ -9,9 +9,9 @@
 namespace adit {
 namespace {
 
-constexpr double kNarrowest = 2.0;  // m: openings that walls are put into
+constexpr double kNarrowest = 1.0;  // m: openings that walls are put into; double lines are nearer
 constexpr double kWidest = 10.0;    // m
-constexpr double kPassage = 1.5;    // m: what stubs and masonry leave open
+constexpr double kDeepest = 0.5;    // of an opening's width: what stubs and masonry take of it
 constexpr double kShortest = 0.3;   // m: nothing shorter is added
 constexpr int kTries = 200;         // for one wall
 
@@ -60,7 +60,7 @@ class Builder {
     if (kind == 0 && spot->width <= most) {
       return WallChain{{spot->foot, spot->foot + spot->width * spot->across}};
     }
-    const double deepest = spot->width - kPassage;
+    const double deepest = kDeepest * spot->width;
     if (kind == 1) {
       const double depth = std::min({random_.uniform(1.0, 3.0), deepest, most});
       if (depth < kShortest) return std::nullopt;

@@ -26,8 +26,9 @@ std::vector<WallChain> without_some(std::vector<WallChain> chains, double gone_m
 std::vector<WallChain> with_displaced(std::vector<WallChain> chains, double displaced_m,
                                       double offset_m, const WayClearance& way, Random& random);
 
-/// With `added_m` metres of walls more: stoppings across openings of 2 to 10 m, stubs, and masonry
-/// at walls, one as often as the other, where there is room for them.
+/// With `added_m` metres of walls more: stoppings across openings of 1 to 10 m, stubs, and masonry
+/// at walls, up to the middle of the opening. A plan does not say where rock is: of the two sides
+/// of a wall the narrower one counts as the opening.
 std::vector<WallChain> with_added(std::vector<WallChain> chains, double added_m,
                                   const WayClearance& way, Random& random);
 

@@ -203,9 +203,8 @@ std::optional<WallClutterOptions> wall_clutter_named(std::string_view kind, int 
     options.groups = pieces;
   } else if (kind == "mixed") {
     options.piercing = pieces / 4;
-    options.along = pieces / 8;
-    options.rows = pieces / 8;
-    options.against = pieces - options.piercing - options.along - options.rows;
+    options.along = pieces / 16;
+    options.against = pieces - options.piercing - options.along;
   } else {
     return std::nullopt;
   }
