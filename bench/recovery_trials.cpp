@@ -12,10 +12,10 @@
 
 #include "adit/localizer/localizer.hpp"
 #include "adit/relocation/fit_quality.hpp"
+#include "adit/simulation/carried_off.hpp"
 #include "adit/simulation/clutter.hpp"
 #include "locate_options.hpp"
 #include "locate_scene.hpp"
-#include "splice.hpp"
 
 namespace adit {
 namespace {
@@ -98,7 +98,8 @@ class Mine {
     Recording first = record(roam(caster_, from, kBefore), seed);
     const std::size_t parted = first.scans.size();
     const Recording second = record(way_from(other), seed + kSecondRecording);
-    const Recording all = spliced(std::move(first), second);
+    const Pose2 driven_on = last_move(first);
+    const Recording all = carried_off(std::move(first), second, driven_on);
     Localizer localizer(scene_.map, settings(), index_);
     localizer.start(all.first_guess.pose, all.first_guess.covariance);
     return follow(localizer, all, parted, options_.trace == static_cast<int>(run) + 1);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "splice.hpp"
+#include "adit/simulation/carried_off.hpp"
 #include "trial_fault.hpp"
 
 namespace adit {
@@ -68,7 +68,8 @@ std::optional<TrialRun> kidnapped_run(TrialScene scene, std::uint64_t seed) {
       record(scene, poses_of(scene.world, kidnapping->after), seed + kSecondRecording);
   run.start = before.first_guess;
   run.affected.assign(before.scans.size(), false);
-  run.recording = spliced(std::move(before), after);
+  const Pose2 driven_on = last_move(before);
+  run.recording = carried_off(std::move(before), after, driven_on);
   run.affected.resize(run.recording.scans.size(), true);
   run.scene = std::move(scene);
   return run;

@@ -24,9 +24,13 @@ Vector3d draw_move_error(const Pose2& move, const OdometryNoise& noise, Random& 
   return factors.transpositionsP().transpose() * permuted;
 }
 
-Pose2 reported_move(const Pose2& move, double slip_ratio, const Vector3d& error) {
-  const Vector2d translation = (1.0 + slip_ratio) * move.translation() + error.head<2>();
-  return {translation.x(), translation.y(), wrap_angle(move.theta + error.z())};
+Pose2 reported_move(const Pose2& move, double slip_ratio, const Vector3d& error,
+                    const OdometryFaults& lasting) {
+  const Vector2d scaled = (1.0 + lasting.odometry_scale) * move.translation();
+  const Vector2d translation = (1.0 + slip_ratio) * scaled + error.head<2>();
+  const double turn =
+      (1.0 + lasting.turn_scale) * move.theta + lasting.turn_bias * move.translation().norm();
+  return {translation.x(), translation.y(), wrap_angle(turn + error.z())};
 }
 
 TimedPath without_jumps(const TimedPath& path) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "adit/motion/odometry.hpp"
+#include "adit/simulation/odometry_faults.hpp"
 #include "adit/simulation/random.hpp"
 #include "adit/simulation/timed_path.hpp"
 
@@ -9,9 +10,10 @@ namespace adit {
 /// An error of the declared noise: normal, with exactly `move_covariance(move, noise)`.
 Vector3d draw_move_error(const Pose2& move, const OdometryNoise& noise, Random& random);
 
-/// The move as the wheels report it: slip first, then `error` added in the frame of the move's
-/// start.
-Pose2 reported_move(const Pose2& move, double slip_ratio, const Vector3d& error);
+/// The move as the wheels report it: lasting errors first, then slip, then `error` added in the
+/// frame of the move's start; the formula stands at `OdometryFaults`.
+Pose2 reported_move(const Pose2& move, double slip_ratio, const Vector3d& error,
+                    const OdometryFaults& lasting = {});
 
 /// The path as the wheels feel it: the same moves, without the jumps; begins at the same pose.
 TimedPath without_jumps(const TimedPath& path);

@@ -43,6 +43,35 @@ double measure_beam(const RayCaster& fixed, std::span<const Segment> moving,
   return reported_range(range, spec, random);
 }
 
+/// The scanner as it really is: upside down, turned, elsewhere.
+ScannerSpec as_mounted(const ScannerSpec& stated) {
+  const ScannerFaults& faults = stated.faults;
+  ScannerSpec real = stated;
+  if (faults.is_mirrored) {
+    real.first_bearing = -stated.first_bearing;
+    real.bearing_step = -stated.bearing_step;
+  }
+  real.vehicle_from_laser.x += faults.mount_x_m;
+  real.vehicle_from_laser.y += faults.mount_y_m;
+  real.vehicle_from_laser.theta += faults.mount_yaw_rad;
+  return real;
+}
+
+double bearing_of(std::size_t beam, const ScannerSpec& spec) {
+  return spec.first_bearing + static_cast<double>(beam) * spec.bearing_step;
+}
+
+/// Beams that meet the machine go no farther.
+void add_body(const ScannerFaults& faults, LaserScan& scan) {
+  if (faults.body_width_rad <= 0.0) return;
+  for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
+    const double off = std::abs(angle_between(faults.body_bearing_rad, scan.bearing(i)));
+    if (off <= 0.5 * faults.body_width_rad) {
+      scan.ranges[i] = std::min(scan.ranges[i], faults.body_range_m);
+    }
+  }
+}
+
 }  // namespace
 
 ScannerSpec cyclone() {
@@ -120,23 +149,27 @@ double reported_range(double range, const ScannerSpec& spec, Random& random) {
 LaserScan simulate_scan(const RayCaster& fixed, const Pose2& map_from_vehicle,
                         const ScannerSpec& spec, Random& random, std::span<const Segment> moving) {
   LaserScan scan = empty_scan(spec, 0.0);
-  const Pose2 map_from_laser = map_from_vehicle * spec.vehicle_from_laser;
+  const ScannerSpec real = as_mounted(spec);
+  const Pose2 map_from_laser = map_from_vehicle * real.vehicle_from_laser;
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
-    scan.ranges[i] = measure_beam(fixed, moving, map_from_laser, scan.bearing(i), spec, random);
+    scan.ranges[i] = measure_beam(fixed, moving, map_from_laser, bearing_of(i, real), spec, random);
   }
+  add_body(spec.faults, scan);
   return scan;
 }
 
 LaserScan simulate_sweep(const RayCaster& fixed, const TimedPath& map_from_vehicle, double stamp,
                          const ScannerSpec& spec, Random& random, std::span<const Segment> moving) {
   LaserScan scan = empty_scan(spec, stamp);
+  const ScannerSpec real = as_mounted(spec);
   const double first = stamp - first_beam_lead(spec);
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
     const double fraction = static_cast<double>(i) / static_cast<double>(spec.beams);
     const Pose2 map_from_laser =
-        map_from_vehicle.at(first + fraction * spec.model.sweep_s) * spec.vehicle_from_laser;
-    scan.ranges[i] = measure_beam(fixed, moving, map_from_laser, scan.bearing(i), spec, random);
+        map_from_vehicle.at(first + fraction * spec.model.sweep_s) * real.vehicle_from_laser;
+    scan.ranges[i] = measure_beam(fixed, moving, map_from_laser, bearing_of(i, real), spec, random);
   }
+  add_body(spec.faults, scan);
   return scan;
 }
 

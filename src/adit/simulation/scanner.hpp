@@ -8,6 +8,7 @@
 #include "adit/scan/scanner_model.hpp"
 #include "adit/simulation/random.hpp"
 #include "adit/simulation/ray_caster.hpp"
+#include "adit/simulation/scanner_faults.hpp"
 #include "adit/simulation/timed_path.hpp"
 
 namespace adit {
@@ -22,6 +23,7 @@ struct ScannerSpec {
   double dropout_ratio = 0.0;
   double dust_ratio = 0.0;
   double dust_range_m = 3.0;
+  ScannerFaults faults;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -32,6 +34,7 @@ struct ScannerSpec {
     field("dropout_ratio", self.dropout_ratio, "share of the beams that bring no return");
     field("dust_ratio", self.dust_ratio, "share of the beams that dust sends back early");
     field("dust_range_m", self.dust_range_m, "mean range of those, exponential (m)");
+    ScannerFaults::visit(self.faults, field);
   }
 };
 
@@ -60,7 +63,8 @@ double first_beam_lead(const ScannerSpec& spec);
 double reported_range(double range, const ScannerSpec& spec, Random& random);
 
 /// A scan of a vehicle at rest. A beam without return is stored as the maximum range. `moving` are
-/// outlines that are not in `fixed`, such as people at this time.
+/// outlines that are not in `fixed`, such as people at this time. The scanner's faults are in it,
+/// but for repetition, which is of recordings.
 LaserScan simulate_scan(const RayCaster& fixed, const Pose2& map_from_vehicle,
                         const ScannerSpec& spec, Random& random,
                         std::span<const Segment> moving = {});

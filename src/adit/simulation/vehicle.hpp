@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "adit/motion/odometry.hpp"
 #include "adit/scan/laser_scan.hpp"
+#include "adit/simulation/odometry_faults.hpp"
 #include "adit/simulation/scanner.hpp"
 #include "adit/simulation/timed_path.hpp"
 #include "adit/simulation/world.hpp"
@@ -33,6 +35,7 @@ struct DriveOptions {
   double gyro_drift_rad_per_s = 0.0;
   double first_guess_sigma_m = 0.15;
   double first_guess_sigma_rad = 2.0 * kPi / 180.0;
+  OdometryFaults faults;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
@@ -60,17 +63,24 @@ struct DriveOptions {
           "how wrong the first guess is on each axis, one sigma (m)");
     field("first_guess_sigma_rad", self.first_guess_sigma_rad,
           "how wrong the heading of the first guess is, one sigma (rad)");
+    OdometryFaults::visit(self.faults, field);
   }
 };
 
-/// What a vehicle brings home, and the truth. The first four lists have one entry for each scan.
+/// What a vehicle brings home, and the truth. The first five lists have one entry for each scan.
 struct Recording {
   std::vector<LaserScan> scans;
-  std::vector<Pose2> odometry;      ///< odom_from_vehicle; begins at the first guess
+  std::vector<Pose2> odometry;  ///< odom_from_vehicle; begins at the first guess
+  /// Whether nobody knows it at that scan; `odometry` then repeats the pose before.
+  std::vector<bool> is_without_odometry;
   std::vector<StampedPose> truth;   ///< map_from_vehicle
   std::vector<double> gyro;         ///< heading (rad), quantised; only differences mean something
   std::vector<StampedPose> wheels;  ///< odom_from_vehicle at the odometry's own rate; drives only
   PoseWithCovariance first_guess;   ///< of the pose at the first scan, with the covariance it has
+
+  /// The odometry at a scan, where there is any. A list of such flags that is empty says that all
+  /// scans have it.
+  std::optional<Pose2> odometry_at(std::size_t scan) const;
 };
 
 /// Stops at each pose and takes a scan there, as the paper's robot did. A hop moves the machine
@@ -82,5 +92,12 @@ Recording record_stops(const World& world, std::span<const Pose2> stops, const S
 /// the machine steers back to its path within a few seconds.
 Recording record_drive(const World& world, std::span<const Pose2> path, const ScannerSpec& spec,
                        const DriveOptions& options, std::uint64_t seed);
+
+/// The same along a path whose times are given, with one or several scanners: `LaserScan::scanner`
+/// is the index, and their sweeps begin one after the other within the time from scan to scan. The
+/// first's scans and the errors of odometry do not depend on the others.
+Recording record_drive(const World& world, const TimedPath& path,
+                       std::span<const ScannerSpec> scanners, const DriveOptions& options,
+                       std::uint64_t seed);
 
 }  // namespace adit
