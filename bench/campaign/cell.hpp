@@ -39,10 +39,12 @@ enum class PlanError {
 enum class Clutter { none, five, eight, twelve, twenty, leaning, walkers, machine_ahead };
 
 /// What dead reckoning does. `usual` is what the configuration declares: 2 % and 0.5°/m from scan
-/// to scan, and 1 % lastingly; `paper` 5 % and 1.25°/m.
+/// to scan, and 1 % lastingly; `paper` 5 % and 1.25°/m, likewise
+/// where it slips in bursts.
 enum class Wheels {
   usual,
   paper,
+  paper_bursts,
   longer,
   shorter,
   turns_more,
@@ -50,7 +52,6 @@ enum class Wheels {
   gap_8_s,
   frozen,
   creeping,
-  slipping,
   slip_bursts,
   jumping,
   none

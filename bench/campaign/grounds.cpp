@@ -99,10 +99,34 @@ bool has_variants(Mine mine) {
   return mine == Mine::panel || mine == Mine::crosscuts || mine == Mine::straight;
 }
 
-Ground with_places_on_path(World world) {
+/// Mines through which the machine drives where it likes; in the others it has a path.
+bool is_roamed(Mine mine) {
+  return mine == Mine::niosh || mine == Mine::edgar || mine == Mine::panel ||
+         mine == Mine::regular_panel || mine == Mine::gap_panel || mine == Mine::entry_panel;
+}
+
+/// Keeps clear of where rough walls stand as well.
+DriveMap ways_of(const Ground& ground) {
+  constexpr std::size_t kPlaces = 200;
+  std::vector<Vector2d> inside;
+  for (const Pose2& place : ground.places) {
+    if (inside.size() < kPlaces) inside.push_back(place.translation());
+  }
+  DriveMapOptions options;
+  options.clearance_m = 1.0;
+  return DriveMap(ground.world.walls, options, inside);
+}
+
+/// Places all over the openings, of a world that has a path through them.
+Ground with_places(World world) {
   Ground ground;
   ground.places = world.path;
   ground.world = std::move(world);
+  const DriveMap ways = ways_of(ground);
+  ground.places.clear();
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    ground.places.push_back({ways.place(i).x(), ways.place(i).y(), 0.0});
+  }
   return ground;
 }
 
@@ -116,13 +140,13 @@ Result<Ground> make_ground(Mine mine, std::int64_t variant, const std::string& d
     case Mine::edgar:
       return real_mine("edgar", data);
     case Mine::panel:
-      return with_places_on_path(panel({}, seed));
+      return with_places(panel({}, seed));
     case Mine::mockup:
-      return with_places_on_path(mockup());
+      return with_places(mockup());
     case Mine::crosscuts:
-      return with_places_on_path(drift_with_crosscuts(seed));
+      return with_places(drift_with_crosscuts(seed));
     case Mine::straight:
-      return with_places_on_path(straight_drift(seed));
+      return with_places(straight_drift(seed));
     case Mine::regular_panel:
       return marked_panel(PanelMark::none, variant);
     case Mine::gap_panel:
@@ -145,6 +169,7 @@ Result<std::shared_ptr<const Ground>> Grounds::of(Mine mine, std::int64_t drive)
   auto made = make_ground(mine, variant, data_);
   if (!made) return tl::unexpected(made.error());
   made->caster = RayCaster(made->world.walls);
+  if (is_roamed(mine)) made->ways = ways_of(*made);
   made->map = LineMap::build(made->world.plan);
   made->index = std::make_shared<const PlaceIndex>(PlaceIndex::build(made->map, {}, threads_));
   slot->ground = std::make_shared<const Ground>(std::move(*made));

@@ -10,6 +10,7 @@
 #include "adit/geometry/result.hpp"
 #include "adit/map/line_map.hpp"
 #include "adit/relocation/place_index.hpp"
+#include "adit/simulation/drive_map.hpp"
 #include "adit/simulation/ray_caster.hpp"
 #include "adit/simulation/world.hpp"
 #include "cell.hpp"
@@ -23,6 +24,7 @@ struct Ground {
   std::vector<std::vector<Pose2>> drives;  ///< past the mark
   std::vector<Pose2> places;               ///< in the openings; drives begin there
   RayCaster caster;                        ///< of the walls
+  DriveMap ways;                           ///< empty where all drives go along given paths
   LineMap map;
   std::shared_ptr<const PlaceIndex> index;
 };

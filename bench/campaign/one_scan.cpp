@@ -37,7 +37,7 @@ SingleScan take_scan(const Cell& cell, std::uint64_t seed, const Pose2& place,
   here.path = {place};
   add_things(cell, seed, here);
   Random noise(seed, kNoise);
-  return {simulate_scan(caster, place, mine.scanner, noise, here.world.clutter), place};
+  return {simulate_scan(caster, place, mine.scanner(), noise, here.world.clutter), place};
 }
 
 void count(const RelocationResult& found, const Pose2* truth, double seconds, DriveCounts& counts) {
@@ -55,36 +55,57 @@ void count(const RelocationResult& found, const Pose2* truth, double seconds, Dr
   counts.wrong += is_answer && !is_first ? 1 : 0;
 }
 
+/// Places of a drive: the next of the list; where the plan lacks a part, those in its middle.
+std::vector<Pose2> places_of(const Cell& cell, std::int64_t drive, Scene& mine) {
+  constexpr double kWithin = 8.0;  // m
+  const std::vector<Pose2>& all = mine.ground->places;
+  const std::size_t first = static_cast<std::size_t>(drive) * kScans;
+  std::vector<Pose2> places;
+  if (cell.plan != PlanError::off_plan) {
+    for (std::size_t i = 0; i < kScans; ++i) places.push_back(all[(first + i) % all.size()]);
+    return places;
+  }
+  mine.path = {all[first % all.size()]};
+  const DriveMap& ways = mine.ground->ways;
+  for (std::size_t i = 0; i < ways.size() && places.size() < kScans; ++i) {
+    if ((ways.place(i) - mine.path.front().translation()).norm() > kWithin) continue;
+    const double heading = wrap_angle(2.4 * static_cast<double>(i));
+    places.push_back({ways.place(i).x(), ways.place(i).y(), heading});
+  }
+  return places;
+}
+
 }  // namespace
 
 Result<DriveCounts> run_single_scans(const Cell& cell, Grounds& grounds, std::uint64_t base_seed,
                                      std::int64_t drive) {
   using Clock = std::chrono::steady_clock;
-  const bool is_outside = cell.task == Task::outside;
+  const bool is_outside = cell.task == Task::outside || cell.plan == PlanError::off_plan;
   const auto sought_in = grounds.of(cell.mine, drive);
   if (!sought_in) return tl::unexpected(sought_in.error());
-  const auto taken_in = is_outside ? grounds.of(other_than(cell.mine), drive) : sought_in;
+  const auto taken_in =
+      cell.task == Task::outside ? grounds.of(other_than(cell.mine), drive) : sought_in;
   if (!taken_in) return tl::unexpected(taken_in.error());
   const std::uint64_t seed = seed_of(cell, base_seed, drive);
   Scene mine;
   mine.ground = *taken_in;
   mine.world = (*taken_in)->world;
-  mine.scanner = scanner_named(cell.scanner).value_or(sick());
+  mine.scanners = faulty_scanners(cell, 0.0);
+  const std::vector<Pose2> places = places_of(cell, drive, mine);
   if (!apply_plan_error(cell, seed, mine)) return fail("the plan's error finds no place");
   const RayCaster caster(mine.world.walls);
   MapErrorOptions stated;
   stated.sigma_m = cell.stated_m;
   const MapError map_error = MapErrorEstimator(stated).error();
-  Relocator relocator((*sought_in)->map, *(*sought_in)->index);
+  const LineMap& map = mine.own_map ? *mine.own_map : (*sought_in)->map;
+  Relocator relocator(map, mine.own_map ? *mine.own_index : *(*sought_in)->index);
   DriveCounts counts;
   counts.drive = drive;
-  const std::vector<Pose2>& places = (*taken_in)->places;
-  for (std::size_t i = 0; i < kScans; ++i) {
-    const Pose2& place = places[(static_cast<std::size_t>(drive) * kScans + i) % places.size()];
-    const SingleScan one = take_scan(cell, seed + i, place, caster, mine);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const SingleScan one = take_scan(cell, seed + i, places[i], caster, mine);
     const auto start = Clock::now();
     const RelocationResult& found =
-        relocator.locate({one.scan, mine.scanner.model, map_error, {}, {}});
+        relocator.locate({one.scan, mine.scanner().model, map_error, {}, {}});
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
     count(found, is_outside ? nullptr : &one.truth, seconds, counts);
   }

@@ -1,22 +1,51 @@
 #include "parts.hpp"
 
 namespace adit {
+namespace {
 
-void mount_scanner(const Cell& cell, Scene& scene) {
-  constexpr double kTurned = radians(10.0);
-  if (cell.fault == ScannerFault::turned) scene.scanner.vehicle_from_laser.theta = kTurned;
-  if (cell.fault == ScannerFault::lever_arm) scene.scanner.vehicle_from_laser.x = 1.0;
-  if (cell.fault == ScannerFault::dust) scene.scanner.dust_ratio = 0.1;
-  if (cell.fault == ScannerFault::dropouts) scene.scanner.dropout_ratio = 0.2;
+/// A scanner that looks back beside one that looks ahead; its scans stop changing half-way.
+std::vector<ScannerSpec> one_of_two_fails(const ScannerSpec& ahead, double drive_s) {
+  ScannerSpec back = ahead;
+  back.vehicle_from_laser = {-1.0, 0.0, kPi};
+  back.faults.repeat_after_s = drive_s / 2.0;
+  return {ahead, back};
 }
 
-void spoil_scans(const Cell& cell, std::uint64_t seed, Scene& scene) {
-  static_cast<void>(seed);
-  for (LaserScan& scan : scene.recording.scans) {
-    const bool is_hidden =
-        cell.fault == ScannerFault::turned || cell.fault == ScannerFault::lever_arm;
-    if (is_hidden) scan.vehicle_from_laser = Pose2{};
+}  // namespace
+
+std::vector<ScannerSpec> faulty_scanners(const Cell& cell, double drive_s) {
+  ScannerSpec spec = scanner_named(cell.scanner).value_or(sick());
+  ScannerFaults& faults = spec.faults;
+  switch (cell.fault) {
+    case ScannerFault::none:
+    case ScannerFault::ramps:  // of the floor: things.cpp
+      break;
+    case ScannerFault::repeats:
+      faults.repeat_after_s = drive_s / 3.0;
+      break;
+    case ScannerFault::mirrored:
+      faults.is_mirrored = true;
+      break;
+    case ScannerFault::turned:
+      faults.mount_yaw_rad = radians(10.0);
+      break;
+    case ScannerFault::lever_arm:
+      faults.mount_x_m = 1.0;
+      break;
+    case ScannerFault::self_hits:
+      faults.body_bearing_rad = radians(80.0);
+      faults.body_width_rad = radians(30.0);
+      break;
+    case ScannerFault::one_of_two:
+      return one_of_two_fails(spec, drive_s);
+    case ScannerFault::dust:
+      spec.dust_ratio = 0.1;
+      break;
+    case ScannerFault::dropouts:
+      spec.dropout_ratio = 0.2;
+      break;
   }
+  return {spec};
 }
 
 }  // namespace adit

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../splice.hpp"
+#include "adit/simulation/carried_off.hpp"
+#include "adit/simulation/drive.hpp"
 #include "parts.hpp"
 
 namespace adit {
@@ -11,19 +12,22 @@ namespace {
 
 constexpr std::uint64_t kSecondRecording = 1000000007;  // added to the seed
 
-Recording record(const Cell& cell, const Scene& scene, const std::vector<Pose2>& path,
-                 std::uint64_t seed) {
+Recording record(const Cell& cell, const Scene& scene, const std::vector<Pose2>& poses,
+                 const TimedPath& way, std::uint64_t seed) {
   return cell.task == Task::stops
-             ? record_stops(scene.world, path, scene.scanner, scene.drive, seed)
-             : record_drive(scene.world, path, scene.scanner, scene.drive, seed);
+             ? record_stops(scene.world, poses, scene.scanner(), scene.drive, seed)
+             : record_drive(scene.world, way, scene.scanners, scene.drive, seed);
 }
 
 void record_all(const Cell& cell, std::uint64_t seed, Scene& scene) {
-  scene.recording = record(cell, scene, scene.path, seed);
+  scene.recording = record(cell, scene, scene.path, scene.timed_path(), seed);
   if (scene.after.empty()) return;
   scene.fault_at = scene.recording.scans.size();
-  const Recording after = record(cell, scene, scene.after, seed + kSecondRecording);
-  scene.recording = spliced(std::move(scene.recording), after);
+  const TimedPath way =
+      drive_along(scene.after, scene.drive.speed_m_per_s, scene.drive.turn_rate_rad_per_s);
+  const Recording second = record(cell, scene, scene.after, way, seed + kSecondRecording);
+  const Pose2 shown = last_move(scene.recording);
+  scene.recording = carried_off(std::move(scene.recording), second, shown);
 }
 
 /// The first scan from the fault on that sees what tells a panel's sides apart.
@@ -32,14 +36,14 @@ std::size_t mark_in_sight(const Scene& scene) {
   constexpr double kOther = 0.5;  // m
   constexpr double kShare = 0.03;
   const RayCaster bare(scene.ground->bare);
-  const double reach = scene.scanner.model.max_range_m;
+  const double reach = scene.scanner().model.max_range_m;
   for (std::size_t i = scene.fault_at; i < scene.recording.truth.size(); ++i) {
     const Pose2& vehicle = scene.recording.truth[i].pose;
     int beams = 0;
     int others = 0;
-    for (int beam = 0; beam < scene.scanner.beams; beam += kEvery, ++beams) {
-      const Vector2d along = unit_vector(vehicle.theta + scene.scanner.first_bearing +
-                                         beam * scene.scanner.bearing_step);
+    for (int beam = 0; beam < scene.scanner().beams; beam += kEvery, ++beams) {
+      const Vector2d along = unit_vector(vehicle.theta + scene.scanner().first_bearing +
+                                         beam * scene.scanner().bearing_step);
       const auto seen = [&](const RayCaster& walls) {
         return std::min(reach, walls.range(vehicle.translation(), along, reach));
       };
@@ -67,10 +71,18 @@ void find_missing_part(Scene& scene) {
 LocalizerSettings settings_of(const Cell& cell) {
   LocalizerSettings settings;
   if (const auto scanner = scanner_named(cell.scanner)) settings.scanner = scanner->model;
+  if (cell.fault == ScannerFault::one_of_two) settings.more_scanners = {settings.scanner};
   settings.odometry = noise_of(cell.wheels);
   settings.map.is_stated = true;
   settings.map.sigma_m = cell.stated_m;
   return settings;
+}
+
+TimedPath Scene::timed_path() const {
+  if (least_s.empty()) {
+    return drive_along(path, drive.speed_m_per_s, drive.turn_rate_rad_per_s);
+  }
+  return timed({path, least_s}, drive.speed_m_per_s, drive.turn_rate_rad_per_s);
 }
 
 Result<Scene> make_scene(const Cell& cell, Grounds& grounds, std::uint64_t base_seed,
@@ -78,21 +90,18 @@ Result<Scene> make_scene(const Cell& cell, Grounds& grounds, std::uint64_t base_
   const std::uint64_t seed = seed_of(cell, base_seed, drive);
   const auto ground = grounds.of(cell.mine, drive);
   if (!ground) return tl::unexpected(ground.error());
-  const auto scanner = scanner_named(cell.scanner);
-  if (!scanner) return fail("no such scanner");
   Scene scene;
   scene.ground = *ground;
   scene.world = (*ground)->world;
-  scene.scanner = *scanner;
   scene.drive.odometry = noise_of(cell.wheels);
   scene.settings = settings_of(cell);
-  mount_scanner(cell, scene);
   if (!choose_way(cell, seed, drive, scene)) return fail("there is no way to drive");
   if (!apply_plan_error(cell, seed, scene)) return fail("the plan's error finds no place");
   add_things(cell, seed, scene);
+  const double drive_s = scene.timed_path().end();
+  scene.drive.faults = wheel_faults(cell.wheels, drive_s, seed);
+  scene.scanners = faulty_scanners(cell, drive_s);
   record_all(cell, seed, scene);
-  spoil_wheels(cell, seed, scene);
-  spoil_scans(cell, seed, scene);
   if (!choose_start(cell, seed, scene)) return fail("there is no wrong start");
   if (scene.missing) find_missing_part(scene);
   if (!scene.ground->bare.empty()) scene.news_at = mark_in_sight(scene);

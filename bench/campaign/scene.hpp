@@ -18,18 +18,20 @@ struct Scene {
   /// Of a plan that is this drive's alone, with its index.
   std::shared_ptr<const LineMap> own_map;
   std::shared_ptr<const PlaceIndex> own_index;
-  ScannerSpec scanner;  ///< as it is mounted and errs
+  std::vector<ScannerSpec> scanners;  ///< as they err; the first is never the one of two that fails
   DriveOptions drive;
   LocalizerSettings settings;
   std::vector<Pose2> path;          ///< of the drive
+  std::vector<double> least_s;      ///< that the move to each pose of it takes (s); empty for none
   std::vector<Pose2> after;         ///< where the machine is carried off to, and drives on
   std::optional<Vector2d> missing;  ///< the middle of what the plan lacks
   Recording recording;
-  std::vector<std::optional<Pose2>> odometry;  ///< of each scan, as far as there is any
-  std::optional<PoseWithCovariance> start;     ///< none: it may be anywhere
+  std::optional<PoseWithCovariance> start;  ///< none: it may be anywhere
   std::size_t fault_at = 0;  ///< the scan from which the pose is sought and the oracle counts
   std::optional<std::size_t> news_at;  ///< likewise, where a mark comes in sight later
 
+  TimedPath timed_path() const;
+  const ScannerSpec& scanner() const { return scanners.front(); }
   const LineMap& map() const { return own_map ? *own_map : ground->map; }
   const std::shared_ptr<const PlaceIndex>& index() const {
     return own_map ? own_index : ground->index;

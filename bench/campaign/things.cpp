@@ -56,11 +56,7 @@ void add_beside(const std::vector<Pose2>& way, Clutter clutter, std::uint64_t se
   mine.people = std::move(near.people);
 }
 
-void add_machine(Scene& scene) {
-  const TimedPath way =
-      drive_along(scene.path, scene.drive.speed_m_per_s, scene.drive.turn_rate_rad_per_s);
-  add_machine_ahead(scene.world, way, {});
-}
+void add_machine(Scene& scene) { add_machine_ahead(scene.world, scene.timed_path(), {}); }
 
 void add_ramps(std::uint64_t seed, Scene& scene) {
   constexpr int kRamps = 3;

@@ -5,19 +5,12 @@ namespace {
 
 constexpr std::uint64_t kLasting = 64;  // stream of the seed
 
-/// The moves from scan to scan, each made another; what was lost stays lost.
-template <class Change>
-void change_moves(std::vector<Pose2>& odometry, Change&& change) {
-  const std::vector<Pose2> before = odometry;
-  for (std::size_t i = 1; i < before.size(); ++i) {
-    odometry[i] = odometry[i - 1] * change(inverse(before[i - 1]) * before[i]);
-  }
-}
+bool is_paper(Wheels wheels) { return wheels == Wheels::paper || wheels == Wheels::paper_bursts; }
 
 }  // namespace
 
 OdometryNoise noise_of(Wheels wheels) {
-  if (wheels == Wheels::paper) return mockup_odometry();
+  if (is_paper(wheels)) return mockup_odometry();
   OdometryNoise noise;
   noise.translation_sigma_ratio = 0.02;
   noise.rotation_sigma_rad_per_m = radians(0.5);
@@ -27,20 +20,51 @@ OdometryNoise noise_of(Wheels wheels) {
   return noise;
 }
 
-void spoil_wheels(const Cell& cell, std::uint64_t seed, Scene& scene) {
+OdometryFaults wheel_faults(Wheels wheels, double drive_s, std::uint64_t seed) {
+  constexpr double kLastingSigma = 0.01;
+  OdometryFaults faults;
   Random random(seed, kLasting);
-  std::vector<Pose2>& odometry = scene.recording.odometry;
-  const double scale = 1.0 + 0.01 * random.normal();
-  const double turn = 1.0 + 0.01 * random.normal();
-  if (cell.wheels != Wheels::paper) {
-    change_moves(odometry, [&](const Pose2& move) {
-      return Pose2{scale * move.x, scale * move.y, turn * move.theta};
-    });
+  if (!is_paper(wheels)) {
+    faults.odometry_scale = kLastingSigma * random.normal();
+    faults.turn_scale = kLastingSigma * random.normal();
   }
-  scene.odometry.assign(odometry.begin(), odometry.end());
-  if (cell.wheels == Wheels::none) {
-    scene.odometry.assign(odometry.size(), std::nullopt);
+  switch (wheels) {
+    case Wheels::usual:
+    case Wheels::paper:
+      break;
+    case Wheels::longer:
+      faults.odometry_scale = 0.05;
+      break;
+    case Wheels::shorter:
+      faults.odometry_scale = -0.05;
+      break;
+    case Wheels::turns_more:
+      faults.turn_scale = 0.10;
+      break;
+    case Wheels::gap_3_s:
+    case Wheels::gap_8_s:
+      faults.dropouts = 2;
+      faults.dropout_s = wheels == Wheels::gap_3_s ? 3.0 : 8.0;
+      break;
+    case Wheels::frozen:
+      faults.freeze_s = drive_s / 3.0;
+      break;
+    case Wheels::creeping:
+      faults.creep = 0.05;
+      break;
+    case Wheels::slip_bursts:
+    case Wheels::paper_bursts:
+      faults.burst_ratio = 0.3;
+      break;
+    case Wheels::jumping:
+      faults.jumps = 2;
+      faults.jump_rad = 0.2;
+      break;
+    case Wheels::none:
+      faults.is_absent = true;
+      break;
   }
+  return faults;
 }
 
 }  // namespace adit
