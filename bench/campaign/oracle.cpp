@@ -49,33 +49,43 @@ double ScanOracle::beam(double measured, double expected) const {
 }
 
 double ScanOracle::log_likelihood(const LaserScan& scan, const Pose2& map_from_vehicle) const {
+  constexpr double kBeyond = 6.0;  // sigmas past its reach a wall is out of it
   const Pose2 laser = map_from_vehicle * scanner_.vehicle_from_laser;
+  const ScannerModel& model = scanner_.model;
+  const double reach = model.max_range_m + kBeyond * model.beam_sigma_m();
   double sum = 0.0;
   for (std::size_t i = 0; i < scan.ranges.size(); ++i) {
     const Vector2d along = unit_vector(laser.theta + scan.bearing(i));
-    sum += beam(scan.ranges[i], mine_.range(laser.translation(), along));
+    sum += beam(scan.ranges[i], mine_.range(laser.translation(), along, reach));
   }
   return sum;
 }
 
-/// A search along the axes with steps that become smaller, within the place.
+/// A search along the axes within the place, with steps that become smaller where none is better:
+/// to half a millimetre, for a beam along a wall sees that twelve times as large.
 double ScanOracle::best_near(const LaserScan& scan, const Pose2& map_from_vehicle) const {
-  constexpr int kHalvings = 5;
+  constexpr int kHalvings = 9;
+  constexpr int kMostSweeps = 8;  // of one step
   double best = log_likelihood(scan, map_from_vehicle);
   Vector3d off = Vector3d::Zero();
+  const auto improve = [&](const Vector3d& by) {
+    const Vector3d tried = off + by;
+    if (!is_one_place(tried)) return false;
+    const double value =
+        log_likelihood(scan, Pose2::from_vector(map_from_vehicle.vector() + tried));
+    if (value <= best) return false;
+    best = value;
+    off = tried;
+    return true;
+  };
   Vector3d step(0.5 * kPlaceMetres, 0.5 * kPlaceMetres, 0.5 * kPlaceRadians);
   for (int i = 0; i < kHalvings; ++i, step *= 0.5) {
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const double side : {-1.0, 1.0}) {
-        Vector3d tried = off;
-        tried[axis] += side * step[axis];
-        if (!is_one_place(tried)) continue;
-        const Vector3d pose = map_from_vehicle.vector() + tried;
-        const double value = log_likelihood(scan, Pose2::from_vector(pose));
-        if (value <= best) continue;
-        best = value;
-        off = tried;
-        break;
+    bool is_better = true;
+    for (int sweep = 0; is_better && sweep < kMostSweeps; ++sweep) {
+      is_better = false;
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vector3d along = step[axis] * Vector3d::Unit(axis);
+        is_better = improve(along) || improve(-along) || is_better;
       }
     }
   }
