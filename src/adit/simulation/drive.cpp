@@ -183,7 +183,8 @@ TimedPath timed(const Drive& drive, double speed, double turn_rate) {
     const StampedPose& last = path.knots.back();
     const double metres = (pose.translation() - last.pose.translation()).norm();
     const double turn = std::abs(angle_between(last.pose.theta, pose.theta));
-    const double seconds = std::max({metres / speed, turn / turn_rate, drive.least_s[i]});
+    const double least = i < drive.least_s.size() ? drive.least_s[i] : 0.0;
+    const double seconds = std::max({metres / speed, turn / turn_rate, least});
     if (seconds > 0.0) path.knots.push_back({last.stamp + seconds, pose});
   }
   return path;

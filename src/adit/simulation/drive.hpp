@@ -14,7 +14,7 @@ namespace adit {
 /// heading alone a turn on the spot.
 struct Drive {
   std::vector<Pose2> poses;     ///< map_from_vehicle
-  std::vector<double> least_s;  ///< time that the move to each pose takes at least (s)
+  std::vector<double> least_s;  ///< time that the move to each pose takes at least (s); else 0
 
   /// Way driven (m).
   double length_m() const;

@@ -9,7 +9,7 @@ namespace {
 constexpr int kSamples = 5;  // in a square, on each axis
 constexpr int kRim = 2;      // squares around the plan
 constexpr double kMostSamples = 2e7;
-constexpr double kSameWall = 0.02;  // m: crossings so near are of a wall that is drawn twice
+constexpr double kSameWall = 0.3;  // m: crossings so near are of one wall, drawn twice
 
 /// Distances to the nearest wall on a square grid.
 class RoomGrid {

@@ -17,7 +17,7 @@ struct Offset {
 };
 constexpr std::array<Offset, 4> kForward = {{{1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
 
-using Spots = std::vector<DriveLattice::Spot>;
+constexpr double kLeastPart = 0.05;  // of the best set's weights: less is no opening to drive in
 
 /// Linked sets of spots (union by path halving).
 class Sets {
@@ -52,8 +52,8 @@ class LinkedSpots {
     }
   }
 
-  /// Keeps the set with the greatest sum of weights, if that is above zero and, unless the rim's
-  /// may be it, not the one that the rim is linked with.
+  /// Keeps the sets whose weights sum to the greatest sum or a part of it, if that is above zero
+  /// and, unless the rim's may be it, not of the set that the rim is linked with.
   bool keep_best(std::span<const double> weights, bool may_be_rim) {
     Sets sets(is_open_.size());
     for_links([&](std::size_t i, std::size_t k) { sets.join(i, k); });
@@ -62,16 +62,18 @@ class LinkedSpots {
       if (is_open_[i]) sums[sets.root(i)] += weights[i];
     }
     const auto best = std::max_element(sums.begin(), sums.end());
-    const auto chosen = static_cast<std::size_t>(best - sums.begin());
-    if (*best <= 0.0 || (!may_be_rim && chosen == sets.root(0))) return false;
+    const std::size_t rim = sets.root(0);
+    if (*best <= 0.0) return false;
+    if (!may_be_rim && sums[rim] == *best) return false;
+    const double least = kLeastPart * *best;
     for (std::size_t i = 0; i < is_open_.size(); ++i) {
-      is_open_[i] = is_open_[i] && sets.root(i) == chosen;
+      const std::size_t root = sets.root(i);
+      is_open_[i] = is_open_[i] && sums[root] >= least && (may_be_rim || root != rim);
     }
     return true;
   }
 
   bool is_open(std::size_t i) const { return is_open_[i]; }
-  std::vector<bool>& open() { return is_open_; }
 
   /// Calls `use(i, k)` once for each pair of open spots that are linked.
   template <class Use>
@@ -136,16 +138,11 @@ std::vector<double> votes_of(const DriveLattice& lattice) {
 /// Leaves the openings alone; none where nothing looks like one.
 bool keep_openings(const DriveLattice& lattice, std::span<const Vector2d> inside,
                    LinkedSpots& spots) {
-  std::vector<double> weights =
+  const std::vector<double> weights =
       inside.empty() ? votes_of(lattice) : points_in_squares(lattice, inside);
   if (spots.keep_best(weights, false)) return true;
   // The openings leak into the rock around.
-  for (double& weight : weights) weight += inside.empty() ? 2.0 : 0.0;
-  const std::vector<bool> all = spots.open();
   spots.keep_votes(1);
-  if (spots.keep_best(weights, true)) return true;
-  spots.open() = all;
-  spots.keep_votes(0);
   return spots.keep_best(weights, true);
 }
 

@@ -25,11 +25,11 @@ struct DriveMapOptions {
 ///
 /// A square lattice of the clearance's pitch is laid over the plan; the place of a square is the
 /// one with the most room of 25, if it has the clearance. Neighbours (8) are linked where the piece
-/// between them has it too. Which places are openings: those linked with the most of `inside`,
-/// points that are known to lie in openings; where none are given, the linked set in which rows and
-/// columns cross walls an odd number of times on the way out most often. Rock around the mine is
-/// linked with the lattice's rim; where the openings leak into it, only places with such a vote
-/// count.
+/// between them has it too. Which linked sets are openings: those with the most of `inside`, points
+/// that are known to lie in openings, or, where none are given, those where rows and columns cross
+/// walls an odd number of times on the way out; sets with less than a twentieth of the best's are
+/// left out. What is linked with the lattice's rim is the rock around; where the openings leak into
+/// it, only places with such a vote count.
 class DriveMap {
  public:
   DriveMap() = default;
