@@ -20,11 +20,16 @@ double percent(std::int64_t part, std::int64_t whole) {
   return 100.0 * ratio(static_cast<double>(part), static_cast<double>(whole));
 }
 
+std::string bound_text(double share) {
+  return 100.0 * share < 10.0 ? fmt::format("{:.2g}", 100.0 * share)
+                              : fmt::format("{:.0f}", 100.0 * share);
+}
+
 /// "3 of 952 (0.07 to 0.92 %)".
 std::string with_bounds(std::int64_t hits, std::int64_t trials) {
   const Share share = clopper_pearson(hits, trials);
-  return fmt::format("{} of {} ({:.2g} to {:.2g} %)", hits, trials, 100.0 * share.low,
-                     100.0 * share.high);
+  return fmt::format("{} of {} ({} to {} %)", hits, trials, bound_text(share.low),
+                     bound_text(share.high));
 }
 
 std::string number(double value, int digits) {

@@ -14,13 +14,20 @@ constexpr double kBefore = 15.0;     // until the machine is carried off (m)
 constexpr double kAfter = 45.0;      // and then (m)
 constexpr double kElsewhere = 10.0;  // (m)
 
-/// A part of the path of so many metres, or of most of it, from a random place.
+double length_of(const std::vector<Pose2>& path) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    sum += (path[i].translation() - path[i - 1].translation()).norm();
+  }
+  return sum;
+}
+
+/// A part of the path of so many metres, from a random place where it is longer.
 std::vector<Pose2> part_of(const std::vector<Pose2>& path, double metres, Random& random) {
   std::vector<double> way{0.0};
   for (std::size_t i = 1; i < path.size(); ++i) {
     way.push_back(way.back() + (path[i].translation() - path[i - 1].translation()).norm());
   }
-  metres = std::min(metres, 0.6 * way.back());
   const double from = random.uniform(0.0, std::max(0.0, way.back() - metres));
   std::vector<Pose2> part;
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -40,7 +47,12 @@ Drive draw_way(const Cell& cell, const Ground& ground, double metres, Random& ra
   }
   const bool is_carried = cell.start == Start::carried_off;
   const bool is_whole = !is_carried && (cell.task == Task::stops || cell.mine == Mine::crosscuts);
-  return {is_whole ? ground.world.path : part_of(ground.world.path, metres, random), {}};
+  const std::vector<Pose2>& path = ground.world.path;
+  if (is_whole) return {path, {}};
+  constexpr double kMostOfIt = 0.6;
+  return {
+      part_of(path, is_carried ? std::min(metres, kMostOfIt * length_of(path)) : metres, random),
+      {}};
 }
 
 }  // namespace
@@ -50,23 +62,21 @@ bool choose_way(const Cell& cell, std::uint64_t seed, std::int64_t drive, Scene&
   Random random(seed, kWay);
   const Ground& ground = *scene.ground;
   const bool is_carried = cell.start == Start::carried_off;
-  Drive first = draw_way(cell, ground, is_carried ? kBefore : kMetres, random);
-  scene.path = std::move(first.poses);
-  scene.least_s = std::move(first.least_s);
-  const auto marked = static_cast<std::size_t>(drive);
-  const bool has_drives = !ground.drives.empty();
+  const auto draw = [&](double metres, int tried) {
+    const std::size_t past_mark = static_cast<std::size_t>(drive) + static_cast<std::size_t>(tried);
+    if (ground.drives.empty()) return draw_way(cell, ground, metres, random);
+    return Drive{ground.drives[past_mark % ground.drives.size()], {}};
+  };
   if (!is_carried) {
-    if (has_drives) {
-      scene.path = ground.drives[marked % ground.drives.size()];
-      scene.least_s.clear();
-    }
+    Drive whole = draw(kMetres, 0);
+    scene.path = std::move(whole.poses);
+    scene.least_s = std::move(whole.least_s);
     return scene.path.size() > 1;
   }
   for (int i = 0; i < kTries; ++i) {
-    scene.after = has_drives
-                      ? ground.drives[(marked + static_cast<std::size_t>(i)) % ground.drives.size()]
-                      : draw_way(cell, ground, kAfter, random).poses;
-    if (scene.after.size() < 2 || scene.path.size() < 2) return false;
+    scene.path = draw_way(cell, ground, kBefore, random).poses;
+    scene.after = draw(kAfter, i).poses;
+    if (scene.path.size() < 2 || scene.after.size() < 2) continue;
     const Vector2d hop = scene.after.front().translation() - scene.path.back().translation();
     if (hop.norm() >= kElsewhere) return true;
   }
