@@ -23,7 +23,6 @@ struct LocateOptions {
   int side = 20;
   int worst = 0;
   int oracle = 0;
-  int trace = 0;
   std::string index;
 
   template <class Self, class Field>
@@ -47,8 +46,6 @@ struct LocateOptions {
           "lists so many of the scans that are not ok and right; above `count`, all");
     field("oracle", self.oracle,
           "of so many of the scans brute force says whether they allow one answer: seconds a scan");
-    field("trace", self.trace,
-          "of drives, this one alone and scan by scan; the first is 1, 0 for none");
     field("index", self.index, "file to which the index is saved, and from which it is read");
   }
 };

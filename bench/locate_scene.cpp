@@ -109,13 +109,6 @@ LocateScene panel_scene(const LocateOptions& options, const ScannerSpec& spec,
   for (std::size_t i = 0; i < places.size(); ++i) {
     scene.cases.push_back({surveyor.scan_at(places[i], i), places[i]});
   }
-  if (panel.mark == PanelMark::none) return scene;
-  PanelLayout unmarked = panel;
-  unmarked.mark = PanelMark::none;
-  scene.unmarked = panel_walls(unmarked, options.seed);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    scene.drives.push_back(drive_past_mark(panel, options.seed * 1000003u + i));
-  }
   return scene;
 }
 

@@ -23,10 +23,6 @@ struct LocateScene {
   ScannerModel scanner;
   MapError map_error;
   std::vector<LocateCase> cases;
-  /// Of a panel that one mark tells from a panel like itself everywhere: its walls without the
-  /// mark, and drives past it.
-  std::vector<Segment> unmarked;
-  std::vector<std::vector<Pose2>> drives;
 };
 
 /// Error: a file that cannot be read, a plan or a scanner that there is none of.

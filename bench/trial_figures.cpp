@@ -137,25 +137,19 @@ std::string status_text(std::span<const Answer> answers) {
     return
         [metres](const Answer& a) { return a.status == Status::ok && a.position_error() > metres; };
   };
-  const auto contradicted = [](const Answer& a) { return a.is_trusted() && a.contradicted; };
   return fmt::format("status                   ok {}  degraded {}  ambiguous {}  lost {}\n",
                      counts.ok, counts.degraded, counts.ambiguous, counts.lost) +
          fmt::format(
              "confidently wrong        ok beyond 0.5 m: {} (in {} runs), beyond 1 m: {}; ok or "
-             "degraded beyond 1 m: {}, of which the scan contradicts {}\n",
+             "degraded beyond 1 m: {}\n",
              count_of(answers, ok_beyond(0.5)), runs_with(answers, ok_beyond(0.5)),
-             count_of(answers, ok_beyond(1.0)), count_of(answers, beyond(1.0)),
-             count_of(answers, contradicted));
+             count_of(answers, ok_beyond(1.0)), count_of(answers, beyond(1.0)));
 }
 
 std::string protection_text(std::span<const Answer> answers) {
   std::string text = protection_row("protection", answers, kAll);
   if (count_of(answers, kNear) > 0) {
     text += protection_row("  within 4 m of crossing", answers, kNear);
-  }
-  const auto affected = [](const Answer& a) { return a.affected; };
-  if (count_of(answers, affected) < std::ssize(answers)) {
-    text += protection_row("  where the fault is met", answers, affected);
   }
   return text;
 }
@@ -174,10 +168,10 @@ std::string worst_text(std::span<const Answer> answers, int count) {
     const Vector2d error = error_in_vehicle(*a);
     text += fmt::format(
         "  seed {} scan {} {} at {:.2f} {:.2f}, {:.1f} deg: along {:.3f} across {:.3f} m, {:.2f} "
-        "deg; level {:.3f}{}\n",
+        "deg; level {:.3f}\n",
         a->seed, a->scan, to_string(a->status), a->truth.x, a->truth.y, degrees(a->truth.theta),
         error.x(), error.y(), degrees(angle_between(a->truth.theta, a->pose.theta)),
-        a->protection_m, a->contradicted ? ", contradicted" : "");
+        a->protection_m);
   }
   return text;
 }

@@ -15,8 +15,7 @@ std::string accuracy_text(std::span<const Answer> answers);
 /// Statuses, and how often a trusted answer was wrong.
 std::string status_text(std::span<const Answer> answers);
 
-/// Protection levels of the trusted answers: all, those near intersections, and those that the
-/// fault touches.
+/// Protection levels of the trusted answers: all, and those near intersections.
 std::string protection_text(std::span<const Answer> answers);
 
 /// The `count` trusted answers that err most, and where to find them again.

@@ -107,10 +107,6 @@ Result<void> check(const TrialOptions& options) {
     return fail("'map_sigma=" + sigma + "': expected plan, unknown or a number of at least 0");
   }
   if (options.runs < 1) return fail("'runs=0': expected 1 or more");
-  const bool follows_motion = options.fault == Fault::slip || options.fault == Fault::kidnap;
-  if (follows_motion && options.mode == TrialMode::single) {
-    return fail("slip and kidnap befall a moving vehicle: expected mode=tracking");
-  }
   return {};
 }
 
@@ -125,11 +121,6 @@ bool TrialOptions::stops() const {
   const bool usual =
       world == TrialWorld::mockup || world == TrialWorld::stress || mode == TrialMode::single;
   return speed ? *speed == 0.0 : usual;
-}
-
-int TrialOptions::pieces_of_clutter() const {
-  const int faulty = world == TrialWorld::mockup ? 20 : 12;
-  return clutter.value_or(fault == Fault::clutter ? faulty : 0);
 }
 
 Result<TrialOptions> parse_trial(std::span<char* const> words) {
@@ -147,8 +138,8 @@ std::string trial_usage() {
   TrialOptions::visit(defaults, [&](const char* name, const auto& value, const char* what) {
     text += fmt::format("  {:<10} {} (default {})\n", name, what, write(value));
   });
-  text += fmt::format("worlds {}\nfaults {}\nestimators {}\nmodes {}\n", words_of<TrialWorld>(),
-                      words_of<Fault>(), words_of<Estimator>(), words_of<TrialMode>());
+  text += fmt::format("worlds {}\nestimators {}\nmodes {}\n", words_of<TrialWorld>(),
+                      words_of<Estimator>(), words_of<TrialMode>());
   return text;
 }
 

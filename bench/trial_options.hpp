@@ -22,19 +22,6 @@ enum class TrialMode { tracking, single };
 /// middle of a sweep, or sweep by sweep.
 enum class ErrorSpan { stamps, sweeps };
 
-/// What goes wrong, one thing at a time.
-enum class Fault {
-  none,
-  clutter,
-  dust,
-  dropouts,
-  wall_moved,
-  pillar_missing,
-  slip,
-  kidnap,
-  wrong_start
-};
-
 /// The words of an enumeration's values, in their order.
 template <class Enum>
 inline constexpr std::array<std::string_view, 0> kWords{};
@@ -45,11 +32,6 @@ template <>
 inline constexpr auto kWords<TrialMode> = std::to_array<std::string_view>({"tracking", "single"});
 template <>
 inline constexpr auto kWords<ErrorSpan> = std::to_array<std::string_view>({"stamps", "sweeps"});
-template <>
-inline constexpr auto kWords<Fault> = std::to_array<std::string_view>({"none", "clutter", "dust",
-                                                                       "dropouts", "wall_moved",
-                                                                       "pillar_missing", "slip",
-                                                                       "kidnap", "wrong_start"});
 template <>
 inline constexpr auto kWords<Estimator> = std::to_array<std::string_view>({"features", "points",
                                                                            "full"});
@@ -66,12 +48,11 @@ struct TrialOptions {
   std::string scanner = "cyclone";
   TrialMode mode = TrialMode::tracking;
   Estimator estimator = Estimator::full;
-  Fault fault = Fault::none;
   ErrorSpan errors = ErrorSpan::sweeps;
   int runs = 60;
   int answers = 0;
   std::uint64_t seed = 1;
-  std::optional<int> clutter;
+  int clutter = 0;
   std::optional<double> speed;
   std::string map_sigma = "plan";
   int worst = 0;
@@ -82,13 +63,12 @@ struct TrialOptions {
     field("scanner", self.scanner, "cyclone, sick, sick_lms or hokuyo");
     field("mode", self.mode, "with odometry from scan to scan, or each scan alone");
     field("estimator", self.estimator, "what says where the vehicle is");
-    field("fault", self.fault, "what goes wrong");
     field("errors", self.errors,
           "of a sweep world's odometry are steady from stamp to stamp or through each sweep");
     field("runs", self.runs, "seeds, one a run");
-    field("answers", self.answers, "above 0: as many seeds as make so many judged answers");
+    field("answers", self.answers, "above 0: as many seeds as make so many answers");
     field("seed", self.seed, "the first seed");
-    field("clutter", self.clutter, "pieces of it; without the fault `clutter` none are usual");
+    field("clutter", self.clutter, "pieces of it");
     field("speed", self.speed,
           "of the drive (m/s); 0 stops at each pose of the path. Usual are 0 in the mockup and for "
           "single scans, else 1");
@@ -101,7 +81,6 @@ struct TrialOptions {
   /// The number that `map_sigma` gives, if it is one.
   std::optional<double> stated_map_sigma() const;
   bool stops() const;
-  int pieces_of_clutter() const;
 };
 
 /// Reads the words of a command line; the error says which word is wrong and what was expected.

@@ -2,16 +2,12 @@
 
 #include <algorithm>
 
-#include "trial_fault.hpp"
-#include "trial_kidnap.hpp"
-
 namespace adit {
 namespace {
 
 constexpr std::uint64_t kGuesses = 22;  // stream of the seed
 
 constexpr double kNearIntersection = 4.0;  // m, docs/benchmarks.md: at and near intersections
-constexpr double kWrong = 1.0;             // m
 
 bool is_near(const std::vector<Vector2d>& places, const Vector2d& point) {
   return std::any_of(places.begin(), places.end(), [&](const Vector2d& place) {
@@ -33,10 +29,7 @@ PoseWithCovariance draw_guess(const Pose2& truth, const DriveOptions& drive, Ran
 class Recorder {
  public:
   Recorder(const TrialRun& run, std::uint64_t seed, std::vector<Answer>& answers)
-      : run_(run),
-        seed_(seed),
-        ranges_(fan_of(run.scene.scanner), run.scene.scanner.model.max_range_m),
-        answers_(answers) {}
+      : run_(run), seed_(seed), answers_(answers) {}
 
   void add(std::size_t scan, const Estimate& estimate, double seconds) {
     Answer answer;
@@ -48,17 +41,13 @@ class Recorder {
     answer.status = estimate.status;
     answer.protection_m = estimate.protection_m;
     answer.seconds = seconds;
-    answer.affected = run_.affected[scan];
     answer.near_intersection = is_near(run_.scene.intersections, answer.truth.translation());
-    answer.contradicted = answer.position_error() > kWrong &&
-                          contradicts(ranges_, run_.map, answer.truth, answer.pose);
     answers_.push_back(answer);
   }
 
  private:
   const TrialRun& run_;
   std::uint64_t seed_;
-  RangeComparison ranges_;
   std::vector<Answer>& answers_;
 };
 
@@ -97,16 +86,11 @@ void track(const TrialRun& run, Recorder& recorder) {
 }
 
 /// A localizer for each scan, so that nothing learnt from one serves another.
-void locate_each(const TrialRun& run, Fault fault, std::uint64_t seed, Recorder& recorder) {
+void locate_each(const TrialRun& run, std::uint64_t seed, Recorder& recorder) {
   Random random(seed, kGuesses);
   for (std::size_t i = 0; i < run.recording.scans.size(); ++i) {
     const Pose2& truth = run.recording.truth[i].pose;
-    PoseWithCovariance guess = draw_guess(truth, run.scene.drive, random);
-    if (fault == Fault::wrong_start) {
-      const auto wrong = draw_wrong_start(run.scene, run.map, truth, random);
-      if (!wrong) continue;
-      guess = *wrong;
-    }
+    const PoseWithCovariance guess = draw_guess(truth, run.scene.drive, random);
     Localizer localizer(run.map, run.scene.settings);
     localizer.start(guess.pose, guess.covariance);
     const Estimate& estimate = localizer.update(run.recording.scans[i]);
@@ -121,7 +105,6 @@ TrialRun plain_run(TrialScene scene, std::uint64_t seed) {
   run.map = LineMap::build(scene.world.plan);
   run.recording = record(scene, scene.world.path, seed);
   run.start = run.recording.first_guess;
-  run.affected.assign(run.recording.scans.size(), true);
   run.scene = std::move(scene);
   return run;
 }
@@ -130,44 +113,13 @@ BeamFan fan_of(const ScannerSpec& scanner) {
   return {scanner.first_bearing, scanner.bearing_step, scanner.beams, scanner.vehicle_from_laser};
 }
 
-std::optional<TrialRun> prepare_run(const TrialOptions& options, std::uint64_t seed) {
-  TrialScene scene = make_scene(options, seed);
-  switch (options.fault) {
-    case Fault::none:
-    case Fault::clutter:
-    case Fault::dust:
-    case Fault::dropouts:
-      return plain_run(std::move(scene), seed);
-    case Fault::wall_moved:
-    case Fault::pillar_missing: {
-      const bool moved = options.fault == Fault::wall_moved;
-      const auto real = moved ? move_wall(scene.world, seed) : remove_pillar(scene.world, seed);
-      if (!real) return std::nullopt;
-      TrialRun run = plain_run(std::move(scene), seed);
-      mark_affected(LineMap::build(*real), run);
-      return run;
-    }
-    case Fault::slip: {
-      TrialRun run = plain_run(std::move(scene), seed);
-      slip_in_bursts(seed, run);
-      return run;
-    }
-    case Fault::kidnap:
-      return kidnapped_run(std::move(scene), seed);
-    case Fault::wrong_start:
-      return options.mode == TrialMode::single ? plain_run(std::move(scene), seed)
-                                               : wrongly_started_run(std::move(scene), seed);
-  }
-  return std::nullopt;
-}
-
 void localise(const TrialRun& run, const TrialOptions& options, std::uint64_t seed,
               std::vector<Answer>& answers) {
   Recorder recorder(run, seed, answers);
   if (options.mode == TrialMode::tracking) {
     track(run, recorder);
   } else {
-    locate_each(run, options.fault, seed, recorder);
+    locate_each(run, seed, recorder);
   }
 }
 

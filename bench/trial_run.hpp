@@ -1,11 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
+#include "adit/information/bound.hpp"
 #include "adit/map/line_map.hpp"
 #include "adit/tracking/estimate.hpp"
-#include "trial_ranges.hpp"
 #include "trial_scene.hpp"
 
 namespace adit {
@@ -16,8 +15,7 @@ struct TrialRun {
   LineMap map;
   Recording recording;
   PoseWithCovariance start;
-  std::vector<bool> affected;  ///< by scan: whether the trial's fault touches it
-  bool feeds_wheels = false;   ///< dead reckoning comes at its own rate, not with the scans
+  bool feeds_wheels = false;  ///< dead reckoning comes at its own rate, not with the scans
 };
 
 /// One answer of the localizer beside the truth.
@@ -29,19 +27,13 @@ struct Answer {
   Matrix3d covariance = Matrix3d::Zero();
   Status status = Status::lost;
   double protection_m = 0.0;
-  double seconds = 0.0;       ///< of the cycle
-  bool affected = true;       ///< by the trial's fault
-  bool contradicted = false;  ///< more than 1 m off, and the scan contradicts the pose
+  double seconds = 0.0;  ///< of the cycle
   bool near_intersection = false;
 
   double position_error() const { return (pose.translation() - truth.translation()).norm(); }
   double heading_error() const { return std::abs(angle_between(truth.theta, pose.theta)); }
   bool is_trusted() const { return status == Status::ok || status == Status::degraded; }
 };
-
-/// The run of a seed with the trial's fault in it; nothing where the fault finds no place in this
-/// world.
-std::optional<TrialRun> prepare_run(const TrialOptions& options, std::uint64_t seed);
 
 /// The scene's whole path, with nothing wrong but what scanner and clutter do.
 TrialRun plain_run(TrialScene scene, std::uint64_t seed);

@@ -105,11 +105,9 @@ TrialScene make_scene(const TrialOptions& options, std::uint64_t seed) {
   if (options.world == TrialWorld::stress) {
     stress(seed, scene);
   } else {
-    scene.clutter = add_clutter(scene.world, clutter_of(options.pieces_of_clutter()), seed);
+    scene.clutter = add_clutter(scene.world, clutter_of(options.clutter), seed);
   }
   scene.scanner = *scanner_named(options.scanner);
-  if (options.fault == Fault::dust) scene.scanner.dust_ratio = 0.1;
-  if (options.fault == Fault::dropouts) scene.scanner.dropout_ratio = 0.2;
   scene.stops = options.stops();
   if (!scene.stops) scene.drive.speed_m_per_s = options.speed.value_or(1.0);
   scene.settings.estimator = options.estimator;

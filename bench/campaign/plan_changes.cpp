@@ -1,8 +1,10 @@
-#include "trial_fault.hpp"
+#include "plan_changes.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "adit/simulation/random.hpp"
 #include "adit/simulation/ray_caster.hpp"
 
 namespace adit {
@@ -11,7 +13,6 @@ namespace {
 // Streams of the seed.
 constexpr std::uint64_t kWallMoved = 23;
 constexpr std::uint64_t kPillar = 24;
-constexpr std::uint64_t kSlip = 25;
 
 using Segments = std::vector<Segment>;
 
@@ -126,12 +127,12 @@ bool is_open(std::span<const Segment> plan, const Vector2d& point) {
   return crossed % 2 == 1;
 }
 
-std::optional<Segments> move_wall(World& world, std::uint64_t seed) {
+bool move_wall(World& world, std::uint64_t seed) {
   constexpr double kShift = 1.0;     // m
   constexpr double kShortest = 1.0;  // m: less is no wall
   constexpr int kTries = 200;
   Random random(seed, kWallMoved);
-  Segments right = world.plan;
+  const Segments right = world.plan;
   for (int i = 0; i < kTries; ++i) {
     const int choice = random.below(static_cast<int>(right.size()));
     const Segment wall = right[static_cast<std::size_t>(choice)];
@@ -141,22 +142,22 @@ std::optional<Segments> move_wall(World& world, std::uint64_t seed) {
     if (bars_the_way(moved, world.path)) continue;
     world.plan.erase(world.plan.begin() + choice);
     world.plan.insert(world.plan.end(), moved.begin(), moved.end());
-    return right;
+    return true;
   }
-  return std::nullopt;
+  return false;
 }
 
-std::optional<Segments> remove_pillar(World& world, std::uint64_t seed) {
+bool remove_pillar(World& world, std::uint64_t seed) {
   Random random(seed, kPillar);
   const Segments planned = world.plan;
   const std::vector<Part> choices = removable(planned);
-  if (choices.empty()) return std::nullopt;
+  if (choices.empty()) return false;
   const auto choice = static_cast<std::size_t>(random.below(static_cast<int>(choices.size())));
   const Part& part = choices[choice];
   const Segments rest = without(planned, part);
   if (seed % 2 == 0) {
     world.plan = rest;
-    return planned;
+    return true;
   }
   if (part.is_loop) {
     const auto at = [&](std::size_t i) { return planned.begin() + static_cast<std::ptrdiff_t>(i); };
@@ -164,43 +165,7 @@ std::optional<Segments> remove_pillar(World& world, std::uint64_t seed) {
   } else {
     world.walls = rest;  // only plans that are exact have columns
   }
-  return rest;
-}
-
-void mark_affected(const LineMap& real, TrialRun& run) {
-  constexpr double kApart = 0.3;  // m
-  constexpr double kShare = 0.01;
-  RangeComparison ranges(fan_of(run.scene.scanner), run.scene.scanner.model.max_range_m);
-  for (std::size_t i = 0; i < run.affected.size(); ++i) {
-    const Pose2& truth = run.recording.truth[i].pose;
-    run.affected[i] = ranges.share_apart({run.map, truth}, {real, truth}, kApart) > kShare;
-  }
-}
-
-void slip_in_bursts(std::uint64_t seed, TrialRun& run) {
-  constexpr double kSlipRatio = 0.3;
-  Random random(seed, kSlip);
-  const auto calm = [&] { return random.uniform(4.0, 12.0); };  // m from burst to burst
-  const auto burst = [&] { return random.uniform(1.6, 6.0); };  // m
-  const std::vector<Pose2> wheels = run.recording.odometry;
-  bool slips = false;
-  bool has_slipped = false;
-  double left = calm();
-  for (std::size_t i = 1; i < wheels.size(); ++i) {
-    Pose2 move = inverse(wheels[i - 1]) * wheels[i];
-    left -= move.translation().norm();
-    if (slips) {
-      move.x *= 1.0 + kSlipRatio;
-      move.y *= 1.0 + kSlipRatio;
-    }
-    has_slipped = has_slipped || slips;
-    run.recording.odometry[i] = run.recording.odometry[i - 1] * move;
-    run.affected[i] = has_slipped;
-    if (left > 0.0) continue;
-    slips = !slips;
-    left = slips ? burst() : calm();
-  }
-  run.affected.front() = false;
+  return true;
 }
 
 }  // namespace adit
