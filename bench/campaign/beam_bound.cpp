@@ -30,7 +30,7 @@ std::optional<double> WallBeamBound::position_variance(const LaserScan& scan, co
     const Vector2d normal = perpendicular((wall.b - wall.a).normalized());
     const double cosine = std::abs(normal.dot(along));
     if (cosine < flattest) continue;
-    const Vector3d gradient = vehicle_gradient(range_gradient(ranges_[i], along, normal), lever);
+    const Vector3d gradient = range_gradient(ranges_[i], along, normal, lever);
     information += gradient * gradient.transpose() / beam_variance(model, ranges_[i], cosine, 0.0);
   }
   std::optional<Matrix3d> covariance;

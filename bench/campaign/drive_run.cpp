@@ -93,7 +93,7 @@ DriveCounts run_drive(const Scene& scene, std::int64_t drive) {
     const bool is_hop = i == scene.fault_at && !scene.after.empty();
     JudgedAnswer answer =
         judged(estimate, recording.truth[i].pose, is_hop ? 0.0 : moved_at(recording, i),
-               localizer.timings().total());
+               localizer.last_turn().timings.total());
     answer.is_news = i >= news_at;
     counting.add(answer);
     bound.add(i, answer, counting);

@@ -9,7 +9,7 @@
 
 #include "adit/geometry/result.hpp"
 #include "adit/map/line_map.hpp"
-#include "adit/relocation/place_index.hpp"
+#include "adit/places/place_index.hpp"
 #include "adit/simulation/drive_map.hpp"
 #include "adit/simulation/ray_caster.hpp"
 #include "adit/simulation/world.hpp"

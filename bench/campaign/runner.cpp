@@ -8,7 +8,7 @@
 #include <mutex>
 #include <set>
 
-#include "adit/relocation/share_out.hpp"
+#include "adit/threads/share_out.hpp"
 #include "drive_run.hpp"
 #include "fingerprint.hpp"
 #include "one_scan.hpp"
