@@ -33,6 +33,11 @@ struct SimulateArguments {
   std::optional<double> speed;
   std::optional<double> sweep;
   std::vector<double> odometry;  ///< ratio, degrees per metre, ratio of turns
+  std::optional<double> drive;   ///< m, at random through the openings
+  int stops = 0;
+  int turns = 0;
+  int creeps = 0;
+  std::vector<std::string> faults;  ///< key=number
 };
 
 struct LocalizeArguments {

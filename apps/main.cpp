@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "commands.hpp"
+#include "simulate_faults.hpp"
 
 namespace {
 
@@ -21,6 +22,7 @@ void add_demo(CLI::App& app, adit::DemoArguments& args, Action& action) {
   command->callback([&] { action = [&] { return run_demo(args); }; });
 }
 
+<<<<<<< HEAD
 /// What the mine has that its plan has not.
 void add_world_changes(CLI::App* command, adit::SimulateArguments& args) {
   command->add_option("--clutter", args.clutter, "boxes and people that no plan shows")
@@ -48,14 +50,37 @@ void add_world_changes(CLI::App* command, adit::SimulateArguments& args) {
       ->delimiter(',')
       ->expected(3)
       ->check(CLI::Number);
+=======
+/// Drives at random, and what fails on them.
+void add_drive_and_faults(CLI::App* command, adit::SimulateArguments& args) {
+  command
+      ->add_option("--drive", args.drive,
+                   "drives at random through the openings, so many metres (default for a plan "
+                   "without --path: 120)")
+      ->check(CLI::Range(1.0, 1e5))
+      ->excludes("--path");
+  const auto count = CLI::Range(0, 1000);
+  command
+      ->add_option("--stops", args.stops, "places on that drive at which it stands for about 5 s")
+      ->check(count);
+  command->add_option("--turns", args.turns, "places at which it turns right round on the spot")
+      ->check(count);
+  command->add_option("--creeps", args.creeps, "steps at 0.05 m/s")->check(count);
+  command->add_option("--fault", args.faults, adit::fault_help())->delimiter(',');
+>>>>>>> drives
 }
 
 void add_simulate(CLI::App& app, adit::SimulateArguments& args, Action& action) {
   CLI::App* command = app.add_subcommand(
+<<<<<<< HEAD
       "simulate",
       "Drive through a simulated mine: plan.csv, mine.csv, log.clf, truth.tum, config.toml");
   command->add_option("world", args.world, "mockup, panel, drift, or a plan's file (with --path)")
       ->required();
+=======
+      "simulate", "Drive through a simulated mine: plan.csv, log.clf, truth.tum, config.toml");
+  command->add_option("world", args.world, "mockup, panel, drift, or a plan's file")->required();
+>>>>>>> drives
   command->add_option("-o,--output", args.output, "folder for the results")->required();
   command->add_option("--seed", args.seed, "seed of everything random")->capture_default_str();
   add_world_changes(command, args);
@@ -77,6 +102,7 @@ void add_simulate(CLI::App& app, adit::SimulateArguments& args, Action& action) 
       ->expected(3)
       ->check(CLI::NonNegativeNumber);
   command->add_option("--config", args.config, "TOML file: scanner and odometry");
+  add_drive_and_faults(command, args);
   command->callback([&] { action = [&] { return run_simulate(args); }; });
 }
 

@@ -4,15 +4,23 @@
 #include "adit/io/carmen.hpp"
 #include "adit/io/plan.hpp"
 #include "adit/io/trajectory.hpp"
+<<<<<<< HEAD
 #include "adit/simulation/machine_ahead.hpp"
+=======
+#include "adit/simulation/clutter.hpp"
+#include "adit/simulation/drive.hpp"
+>>>>>>> drives
 #include "adit/simulation/mine_worlds.hpp"
-#include "adit/simulation/timed_path.hpp"
 #include "adit/simulation/vehicle.hpp"
 #include "commands.hpp"
 #include "output_folder.hpp"
 #include "recording_log.hpp"
 #include "report_error.hpp"
+<<<<<<< HEAD
 #include "world_changes.hpp"
+=======
+#include "simulate_faults.hpp"
+>>>>>>> drives
 
 namespace adit {
 namespace {
@@ -24,7 +32,11 @@ struct Scene {
   ScannerSpec scanner;
   DriveOptions drive;
   bool stops = false;
+<<<<<<< HEAD
   double plan_sigma_m = 0.0;
+=======
+  std::vector<double> least_s;  ///< as in Drive
+>>>>>>> drives
 };
 
 Result<World> world_named(const SimulateArguments& arguments) {
@@ -47,8 +59,29 @@ Result<World> world_named(const SimulateArguments& arguments) {
     world.path.clear();
     for (const StampedPose& pose : *path) world.path.push_back(pose.pose);
   }
-  if (world.path.empty()) return fail("a plan needs --path, the poses to drive along");
   return world;
+}
+
+/// Gives a scene without a path, or whose path is not wanted, a drive at random.
+Result<void> plan_drive(const SimulateArguments& arguments, Scene& scene) {
+  constexpr double kLength = 120.0;  // m
+  if (!arguments.drive && !scene.world.path.empty()) return {};
+  RandomDriveOptions options;
+  options.length_m = arguments.drive.value_or(kLength);
+  options.stops = arguments.stops;
+  options.turns = arguments.turns;
+  options.creeps = arguments.creeps;
+  Drive drive = random_drive(DriveMap(scene.world.walls), options, arguments.seed);
+  if (drive.poses.empty()) return fail("no opening is wide enough to drive in", arguments.world);
+  scene.world.path = std::move(drive.poses);
+  scene.least_s = std::move(drive.least_s);
+  return {};
+}
+
+/// Where the vehicle is at what time, but for hops.
+TimedPath drive_of(const Scene& scene) {
+  return timed({scene.world.path, scene.least_s}, scene.drive.speed_m_per_s,
+               scene.drive.turn_rate_rad_per_s);
 }
 
 /// The preset, then the configuration file over it, then the command line over both.
@@ -74,16 +107,23 @@ Result<Scene> make_scene(const SimulateArguments& arguments) {
     scene.drive.odometry.rotation_sigma_rad_per_m = radians(arguments.odometry[1]);
     scene.drive.odometry.rotation_sigma_ratio = arguments.odometry[2];
   }
+  const auto set = set_faults(arguments.faults, scene.drive.faults, scene.scanner.faults);
+  if (!set) return tl::unexpected(set.error());
   const double speed = arguments.speed.value_or(arguments.world == "mockup" ? 0.0 : 1.0);
   scene.stops = speed == 0.0;
   if (!scene.stops) scene.drive.speed_m_per_s = speed;
   auto world = world_named(arguments);
   if (!world) return tl::unexpected(world.error());
   scene.world = std::move(*world);
+<<<<<<< HEAD
   const auto sigma = change_world(arguments, scene.world);
   if (!sigma) return tl::unexpected(sigma.error());
   scene.plan_sigma_m = *sigma;
   if (const auto done = furnish(arguments, scene.world); !done) return tl::unexpected(done.error());
+=======
+  if (const auto planned = plan_drive(arguments, scene); !planned)
+    return tl::unexpected(planned.error());
+>>>>>>> drives
   return scene;
 }
 
@@ -135,6 +175,7 @@ int run_simulate(const SimulateArguments& arguments) {
   auto scene = make_scene(arguments);
   if (!scene) return report(scene.error(), scene.error().file.empty() ? kWrongCall : kFailed);
   if (const auto fits = check_size(*scene); !fits) return report(fits.error());
+<<<<<<< HEAD
   if (arguments.machine_ahead) {
     add_machine_ahead(scene->world, drive_of(*scene), {.gap_m = *arguments.machine_ahead});
   }
@@ -143,6 +184,14 @@ int run_simulate(const SimulateArguments& arguments) {
                                                  scene->drive, arguments.seed)
                                   : record_drive(scene->world, scene->world.path, scene->scanner,
                                                  scene->drive, arguments.seed);
+=======
+  const int pieces = add_clutter(scene->world, clutter_of(arguments.clutter), arguments.seed);
+  const Recording recording =
+      scene->stops ? record_stops(scene->world, scene->world.path, scene->scanner, scene->drive,
+                                  arguments.seed)
+                   : record_drive(scene->world, drive_of(*scene), {&scene->scanner, 1},
+                                  scene->drive, arguments.seed);
+>>>>>>> drives
   if (const auto written = write_scene(arguments.output, *scene, recording); !written) {
     return report(written.error());
   }

@@ -84,9 +84,18 @@ statuses() {
   expect 2 plot map -o x.png
   expect 2 demo extra
   room_plan plan.csv
-  expect 2 simulate plan.csv -o d
-  says '--path'
+  expect 2 simulate plan.csv -o d --path p.tum --drive 10
+  expect 2 simulate plan.csv -o d --fault freeze=20
+  says "no key 'freeze'"
+  expect 2 simulate plan.csv -o d --fault freeze_s=soon
+  says "'soon' is no number for freeze_s"
+  expect 2 simulate plan.csv -o d --fault dropouts=1.5
+  expect 2 simulate plan.csv -o d --fault jumps=1,dropouts=1,jumps=2
+  says "'jumps' is given twice"
   absent d
+  expect 0 simulate --help
+  prints 'odometry_scale: .*default: 0'
+  prints 'mount_yaw_rad: .*rad'
   expect 0 --help
   prints 'localize'
   expect 0 localize --help
@@ -402,6 +411,7 @@ repeat() {
   cmp one/estimates.csv two/estimates.csv
 }
 
+<<<<<<< HEAD
 as_built() {
   # a plain world's mine is its plan, and zero is nothing
   expect 0 simulate mockup --seed 3 -o plain
@@ -440,6 +450,41 @@ as_built() {
   expect 0 simulate panel --seed 3 --scanner sick --speed 4 --ramps 2 -o sloped
   cmp level/truth.tum sloped/truth.tum
   ! cmp -s level/log.clf sloped/log.clf || die 'no ramp'
+=======
+# a drive at random needs no path, is as long as asked, and stands where it shall
+drives() {
+  gallery plan.csv
+  expect 0 simulate plan.csv --scanner sick --drive 40 --seed 3 -o a
+  expect 0 simulate plan.csv --scanner sick --drive 40 --seed 3 -o b
+  expect 0 simulate plan.csv --scanner sick --drive 40 --seed 4 -o c
+  expect 0 simulate plan.csv --scanner sick --drive 40 --seed 3 --stops 2 --turns 1 -o d
+  cmp a/log.clf b/log.clf
+  ! cmp -s a/truth.tum c/truth.tum || die 'the seed changes nothing'
+  in_range metres "$(awk 'NR > 1 { s += sqrt(($2 - x) ^ 2 + ($3 - y) ^ 2) } { x = $2; y = $3 } END { print s }' a/truth.tum)" 38 40.001
+  in_range 'scans more' "$(($(lines_of d/truth.tum) - $(lines_of a/truth.tum)))" 80 150
+  expect 0 localize --map a/plan.csv --log a/log.clf --config a/config.toml -o one
+  judged one/estimates.csv a/truth.tum 0.05 0.3
+  printf '0,0,1,0\n1,0,1,1\n1,1,0,1\n0,1,0,0\n' >narrow.csv
+  expect 1 simulate narrow.csv -o e
+  says 'narrow.csv'
+  absent e
+}
+
+# what fails shows in the log, and only there
+faults() {
+  gallery plan.csv
+  expect 0 simulate plan.csv --scanner sick --drive 30 --seed 3 -o right
+  expect 0 simulate plan.csv --scanner sick --drive 30 --seed 3 -o wrong \
+    --fault dropouts=1,dropout_s=4,freeze_s=20,repeat_after_s=15
+  cmp right/truth.tum wrong/truth.tum
+  cmp right/config.toml wrong/config.toml
+  in_range 'ODOM lines lost' "$(($(grep -c ^ODOM right/log.clf) - $(grep -c ^ODOM wrong/log.clf)))" 190 201
+  # a scan's ranges are the fields 10 to 1090
+  [ "$(awk '/^ROBOTLASER1/ && $(NF - 2) >= 15 { s = ""; for (i = 10; i < 1091; ++i) s = s " " $i; print s }' \
+    wrong/log.clf | sort -u | grep -c '')" -eq 1 ] || die 'a scanner that repeats its scan has several'
+  [ "$(awk '/^ODOM/ && $(NF - 2) > 20 { print $2, $3, $4 }' wrong/log.clf | sort -u | grep -c '')" -eq 1 ] ||
+    die 'frozen odometry moves'
+>>>>>>> drives
 }
 
 negative_start() {

@@ -135,6 +135,27 @@ TEST(RandomDrive, KeepsClearOfWallsOverItsWholeLength) {
   }
 }
 
+TEST(RandomDrive, KeepsClearRoundTightCorners) {
+  // A drift 2 m wide in steps of 4 m: rounded without regard to walls a corner would be cut.
+  std::vector<Vector2d> left;
+  std::vector<Vector2d> right;
+  for (int i = 0; i < 12; ++i) {
+    const Vector2d at(4.0 * ((i + 1) / 2), 4.0 * (i / 2));
+    left.push_back(at + Vector2d(-1.0, 1.0));
+    right.push_back(at + Vector2d(1.0, -1.0));
+  }
+  std::vector<Vector2d> around = left;
+  around.insert(around.end(), right.rbegin(), right.rend());
+  const std::vector<Segment> walls = outline(around);
+  const DriveMap map(walls);
+  ASSERT_GT(map.size(), 30u);
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const Drive drive = random_drive(map, {.length_m = 60.0}, seed);
+    EXPECT_NEAR(drive.length_m(), 60.0, 1e-9);
+    EXPECT_GE(least_clearance(walls, drive.poses), 0.8 - 1e-9);
+  }
+}
+
 TEST(RandomDrive, OfOneSeedIsOneDrive) {
   const DriveMap map(pillar_and_drift());
   const RandomDriveOptions options{.stops = 2, .turns = 1, .creeps = 2};

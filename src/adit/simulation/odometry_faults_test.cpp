@@ -180,7 +180,10 @@ TEST(CarriedOff, ShowsNoMoveWhileTheTruthMoves) {
   Recording first = record({});
   const std::vector<Pose2> path = {{100, 50, 1}, {110, 50, 1}};
   const DriveOptions options = failing({.dropouts = 1});
-  const Recording second = record_drive({}, path, few_beams(), options, 5);
+  ScannerSpec sweeping = few_beams();
+  sweeping.model.sweep_s = 0.1;
+  sweeping.model.stamp = SweepMoment::end;  // the first scan is not at time 0
+  const Recording second = record_drive({}, path, sweeping, options, 5);
   const std::size_t n = first.scans.size();
   const Recording both = carried_off(first, second);
   ASSERT_EQ(both.scans.size(), n + second.scans.size());
@@ -200,6 +203,8 @@ TEST(CarriedOff, ShowsNoMoveWhileTheTruthMoves) {
   for (std::size_t i = 1; i < both.wheels.size(); ++i) {
     EXPECT_GT(both.wheels[i].stamp, both.wheels[i - 1].stamp);
   }
+  EXPECT_NEAR(both.wheels.back().stamp - both.scans.back().stamp,
+              second.wheels.back().stamp - second.scans.back().stamp, 1e-9);
   expect_pose(both.wheels.back().pose,
               both.odometry[n] * inverse(second.odometry[0]) * second.wheels.back().pose);
   const Pose2 shown{0.2, 0.0, 0.1};
