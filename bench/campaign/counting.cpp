@@ -52,6 +52,7 @@ JudgedAnswer judged(const Estimate& estimate, const Pose2& truth, double moved_m
 void add_counts(const DriveCounts& counts, DriveCounts& sum) {
   const std::int64_t drive = sum.drive;
   const double found_m = sum.found_m;
+  const double worst_m = std::max(sum.worst_m, counts.worst_m);
   const auto add = [](const auto& value, auto& to) {
     if constexpr (std::is_same_v<std::remove_reference_t<decltype(to)>, Histogram>) {
       to.add(value);
@@ -70,6 +71,7 @@ void add_counts(const DriveCounts& counts, DriveCounts& sum) {
   });
   sum.drive = drive;
   sum.found_m = found_m;
+  sum.worst_m = worst_m;
 }
 
 void Counting::add(const JudgedAnswer& answer) {
@@ -97,6 +99,7 @@ void Counting::add(const JudgedAnswer& answer) {
 void Counting::count_answer(const JudgedAnswer& answer) {
   if (!answer.is_answer()) return;
   counts_.levels.add(answer.level_m);
+  counts_.worst_m = std::max(counts_.worst_m, answer.position_error());
   counts_.answered += answer.level_m <= kUsefulLevel ? 1 : 0;
   counts_.beyond += answer.is_beyond() ? 1 : 0;
   if (answer.is_wrong()) {

@@ -68,6 +68,7 @@ struct DriveCounts {
   double found_m = -1.0;
   std::int64_t judged = 0;
   double error_m = 0.0;
+  double worst_m = 0.0;
   double nees_x = 0.0;
   double nees_y = 0.0;
   double nees_heading = 0.0;
@@ -100,8 +101,9 @@ struct DriveCounts {
     field("listed", self.listed, "single scans of whose poses one is right");
     field("metres", self.metres, "way driven (m)");
     field("found_m", self.found_m, "way until `ok` and right (m); below 0 for never");
-    field("judged", self.judged, "answers that are not wrong, to which the next four belong");
+    field("judged", self.judged, "answers that are not wrong, to which the next sums belong");
     field("error_m", self.error_m, "sum of their position errors (m)");
+    field("worst_m", self.worst_m, "largest position error of all answers (m)");
     field("nees_x", self.nees_x, "sum of squared errors over claimed variances");
     field("nees_y", self.nees_y, "likewise");
     field("nees_heading", self.nees_heading, "likewise");
@@ -114,7 +116,8 @@ struct DriveCounts {
   }
 };
 
-/// Adds a drive's counts to those of others; its number and its way until found are left out.
+/// Adds a drive's counts to those of others; its number and its way until found are left out, and
+/// of the largest errors the larger counts.
 void add_counts(const DriveCounts& counts, DriveCounts& sum);
 
 /// Counts a drive's estimates one after the other.

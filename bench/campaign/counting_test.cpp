@@ -83,6 +83,7 @@ TEST(Counting, CountsADriveByHand) {
   EXPECT_NEAR(counts.error_m, 0.1 + 0.3 + 0.7 + 0.2, 1e-12);
   EXPECT_NEAR(counts.nees_x, (0.01 + 0.09 + 0.49 + 0.04) / 0.01, 1e-9);
   EXPECT_NEAR(counts.nees_y, 0.0, 1e-12);
+  EXPECT_NEAR(counts.worst_m, 40.0, 1e-12);
 }
 
 TEST(Counting, CountsAnUnconfirmedStartApart) {
@@ -122,6 +123,7 @@ TEST(Counting, AddsDrivesUp) {
   EXPECT_EQ(sum.beyond, 2);
   EXPECT_EQ(sum.levels.count(), 2);
   EXPECT_DOUBLE_EQ(sum.metres, 2.0);
+  EXPECT_NEAR(sum.worst_m, 0.7, 1e-12);
 }
 
 }  // namespace

@@ -80,16 +80,17 @@ std::string drive_row(std::string_view name, const Pooled& p, bool has_way) {
   const std::int64_t confirmed = s.scans - s.unconfirmed;
   const auto judged = static_cast<double>(s.judged);
   return fmt::format(
-      "| {} | {} | {} | {} | {} | {} | {} | {:.1f} | {:.1f} | {} | {} / {} | {} | {} | {} {} {} | "
-      "{} | {} / {} |\n",
+      "| {} | {} | {} | {} | {} | {} | {} | {:.1f} | {:.1f} | {} | {} / {} | {}, {} | {} | {} {} "
+      "{} | {} | {} / {} |\n",
       name, p.drives, s.answers(), with_bounds(s.beyond, s.answers()),
       with_bounds(s.wrong, s.answers()), untold_text(p), with_bounds(p.hit, p.drives),
       percent(s.answered, confirmed), percent(s.ok, confirmed), silence_text(p),
       number(s.levels.quantile(0.5), 2), number(s.levels.quantile(0.95), 2),
-      number(ratio(s.error_m, judged), 3), number(std::sqrt(ratio(s.squares_m2, s.bound_m2)), 2),
-      number(ratio(s.nees_x, judged), 2), number(ratio(s.nees_y, judged), 2),
-      number(ratio(s.nees_heading, judged), 2), found_text(p, has_way),
-      number(1e6 * s.seconds.quantile(0.5), 0), number(1e6 * s.seconds.quantile(0.99), 0));
+      number(ratio(s.error_m, judged), 3), number(s.worst_m, 2),
+      number(std::sqrt(ratio(s.squares_m2, s.bound_m2)), 2), number(ratio(s.nees_x, judged), 2),
+      number(ratio(s.nees_y, judged), 2), number(ratio(s.nees_heading, judged), 2),
+      found_text(p, has_way), number(1e6 * s.seconds.quantile(0.5), 0),
+      number(1e6 * s.seconds.quantile(0.99), 0));
 }
 
 std::string single_row(std::string_view name, const Pooled& p) {
@@ -104,7 +105,8 @@ std::string single_row(std::string_view name, const Pooled& p) {
 constexpr const char* kDriveHead =
     "| cell | drives | answers | beyond (95 %) | wrong (95 %) | of them no scan can tell | drives "
     "hit (95 %) | answered, % | `ok`, % | silent: stretches over 10 m in drives; longest; median | "
-    "level p50 / p95, m | mean error, m | error over bound | NEES x, y, heading | found: median; "
+    "level p50 / p95, m | mean, largest error, m | error over bound | NEES x, y, heading | found: "
+    "median; "
     "within 10 / 15 / 30 m | cycle median / p99, µs |\n"
     "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 
