@@ -35,6 +35,18 @@ std::optional<double> miss_along(const WallLine& line, const Vector2d& end,
   return within ? std::optional(back) : std::nullopt;
 }
 
+/// How far (m) a wall's line is along a beam, and how far it comes nearer there per metre that it
+/// comes nearer along its normal.
+struct RangeTo {
+  double secant = 0.0;
+  double range = 0.0;
+};
+
+RangeTo range_to(const WallLine& wall, const Vector2d& origin, const Vector2d& direction) {
+  const double secant = 1.0 / wall.normal.dot(direction);
+  return {secant, wall.normal.dot(wall.foot - origin) * secant};
+}
+
 /// The normal that points towards the scanner.
 Vector2d facing(const Vector2d& normal, const Vector2d& direction) {
   return normal.dot(direction) < 0.0 ? normal : Vector2d(-normal);
@@ -117,6 +129,7 @@ void BeamResiduals::compute(const LineMap& map, const Pose2& map_from_vehicle,
   neighbours_.reset(map, options.neighbour_reach_m);
   unmapped_ = 0;
   log_unmapped_ = 0.0;
+  most_secant_ = 1.0 / std::cos(options.max_incidence_rad);
   const std::size_t count = directions_.size();
   const std::size_t stations = station_count(path, options.station_spacing_m);
   for (std::size_t k = 0; k < stations; ++k) {
@@ -142,10 +155,9 @@ void BeamResiduals::compute(const LineMap& map, const Pose2& map_from_vehicle,
 /// residual is the mean over all of them by how likely they are: as long as the pose is in doubt,
 /// the nearest wall would hold it where it is.
 BeamResiduals::Meeting BeamResiduals::meet(const WallLine& in_the_way, double measured,
-                                           double range, const Vector2d& origin,
-                                           const Vector2d& direction, const Vector2d& lever,
-                                           const WallDoubt& doubt) {
-  const Vector2d end = origin + measured * direction;
+                                           double range, const Beam& beam, const WallDoubt& doubt) {
+  const Vector2d& direction = beam.direction;
+  const Vector2d end = beam.origin + measured * direction;
   met_.clear();
   met_.push_back({&in_the_way, measured - range, 0.0});
   std::size_t nearest = 0;
@@ -160,7 +172,7 @@ BeamResiduals::Meeting BeamResiduals::meet(const WallLine& in_the_way, double me
   if (met_.size() == 1) return met;
   const Vector2d normal = facing(met.wall->normal, direction);
   const double variance =
-      variance_of_miss(doubt, normal, direction, measured - met.residual, lever);
+      variance_of_miss(doubt, normal, direction, measured - met.residual, beam.lever);
   if (!(variance > 0.0)) return met;
   const double least = met.residual * met.residual;
   double weights = 0.0;
@@ -212,85 +224,97 @@ void BeamResiduals::look_up_walls(const Station& station, std::size_t stride,
   }
 }
 
+void BeamResiduals::sweep_from(const LineMap& map, const Vector2d& centre, double same_place_m) {
+  const bool is_same_map = swept_map_ == map.identity();
+  if (has_swept_ && is_same_map && (centre - swept_from_).norm() <= same_place_m) return;
+  visibility_.sweep(map, centre, reach_);
+  if (!is_same_map) swept_map_ = map.identity();
+  has_swept_ = true;
+  swept_from_ = centre;
+}
+
+BeamResiduals::Beam BeamResiduals::beam_of(const Station& station,
+                                           const RigidTransform& map_from_laser,
+                                           const Vector2d& vehicle, std::size_t index) const {
+  Beam beam;
+  beam.index = index;
+  beam.tau = timing_.at(index);
+  beam.origin = station.laser.translation();
+  beam.direction = map_from_laser.direction(directions_[index]);
+  if (timing_.step_s != 0.0) {
+    const double lag = beam.tau - station.tau;
+    beam.origin += lag * station.velocity;
+    const double turn = station.turn_rate * lag;
+    beam.direction =
+        (beam.direction + turn * perpendicular(beam.direction)) / std::sqrt(1.0 + turn * turn);
+  }
+  beam.lever = beam.origin - vehicle;
+  return beam;
+}
+
+void BeamResiduals::count_unmapped(std::size_t beam) {
+  if (!is_return(beam)) return;
+  ++unmapped_;
+  log_unmapped_ += std::log(scan_->ranges[beam] / reach_);
+}
+
 void BeamResiduals::look_from(const LineMap& map, const Station& station, const Vector2d& vehicle,
                               const RefinementOptions& options, std::size_t stride,
                               const WallDoubt& doubt) {
-  const double most_secant = 1.0 / std::cos(options.max_incidence_rad);
   const std::size_t count = (station.end - station.begin + stride - 1) / stride;
   const RigidTransform map_from_laser(station.laser);
-  const Vector2d centre = station.laser.translation();
-  const bool moves = timing_.step_s != 0.0;
   const std::span<int> walls(walls_.data(), count);
-  const bool is_same_map = swept_map_ == map.identity();
-  const bool is_near = (centre - swept_from_).norm() <= options.same_place_m;
-  if (!(has_swept_ && is_same_map && is_near)) {
-    visibility_.sweep(map, centre, reach_);
-    if (!is_same_map) swept_map_ = map.identity();
-    has_swept_ = true;
-    swept_from_ = centre;
-  }
+  sweep_from(map, station.laser.translation(), options.same_place_m);
   look_up_walls(station, stride, walls);
   const bool looks_beyond =
       options.looks_beyond && stride == 1;  // the few beams that lead the way do without
   WallLine wall;
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t i = station.begin + k * stride;
-    const bool has_return = is_return(i);
     if (walls[k] < 0) {
-      if (has_return) {
-        ++unmapped_;
-        log_unmapped_ += std::log(scan_->ranges[i] / reach_);
-      }
+      count_unmapped(i);
       continue;
     }
     if (walls[k] != wall.wall) wall = line_of(map, walls[k]);
-    Vector2d direction = map_from_laser.direction(directions_[i]);
-    Vector2d origin = centre;
-    const double tau = timing_.at(i);
-    if (moves) {
-      const double lag = tau - station.tau;
-      origin += lag * station.velocity;
-      const double turn = station.turn_rate * lag;
-      direction = (direction + turn * perpendicular(direction)) / std::sqrt(1.0 + turn * turn);
-    }
-    double secant = 1.0 / wall.normal.dot(direction);
-    double range = wall.normal.dot(wall.foot - origin) * secant;
-    const double measured = has_return ? scan_->ranges[i] : range;
-    Meeting met{&wall, measured - range, 0.0};
-    const Vector2d lever = origin - vehicle;
-    bool is_beyond = false;
-    if (std::abs(met.residual) > noise_reach_) {  // else the scanner's noise explains the range
-      const Vector2d end = origin + measured * direction;
-      if (std::abs(met.residual) < kFarOff) {
-        met = meet(wall, measured, range, origin, direction, lever, doubt);
-      }
-      is_beyond = looks_beyond && met.wall == &wall &&
-                  measured - range > options.neighbour_reach_m &&
-                  find_wall_beyond(map, end, direction, options.neighbour_reach_m);
-      if (is_beyond) met.wall = &beyond_;
-      if (met.wall != &wall) {
-        secant = 1.0 / met.wall->normal.dot(direction);
-        range = met.wall->normal.dot(met.wall->foot - origin) * secant;
-      }
-      if (is_beyond) met = {&beyond_, measured - range, 0.0};
-    }
-    if (!(std::abs(secant) < most_secant)) continue;
-    BeamResidual& out = beams_[size_++];
-    out.normal = facing(met.wall->normal, direction);
-    out.stretch = -std::abs(secant);
-    out.range = range;
-    out.has_return = has_return && met.wall->wall != missing_wall_;
-    out.residual = out.has_return ? met.residual : 0.0;
-    out.measured = out.has_return ? measured : range;
-    out.wall_variance = met.variance;
-    out.direction = direction;
-    out.hit = origin + range * direction;
-    out.gradient = range_gradient(range, direction, out.normal, lever);
-    out.tau = tau;
-    out.beam = static_cast<int>(i);
-    out.wall = met.wall->wall;
-    out.is_beyond = is_beyond;
+    add(map, wall, beam_of(station, map_from_laser, vehicle, i), options, looks_beyond, doubt);
   }
+}
+
+/// Puts the beam to the others, unless it is too flat to the wall that it met.
+void BeamResiduals::add(const LineMap& map, const WallLine& in_the_way, const Beam& beam,
+                        const RefinementOptions& options, bool looks_beyond,
+                        const WallDoubt& doubt) {
+  const bool has_return = is_return(beam.index);
+  RangeTo to = range_to(in_the_way, beam.origin, beam.direction);
+  const double measured = has_return ? scan_->ranges[beam.index] : to.range;
+  const double excess = measured - to.range;
+  Meeting met{&in_the_way, excess, 0.0};
+  bool is_beyond = false;
+  if (std::abs(excess) > noise_reach_) {  // else the scanner's noise explains the range
+    if (std::abs(excess) < kFarOff) met = meet(in_the_way, measured, to.range, beam, doubt);
+    is_beyond = looks_beyond && met.wall == &in_the_way && excess > options.neighbour_reach_m &&
+                find_wall_beyond(map, beam.origin + measured * beam.direction, beam.direction,
+                                 options.neighbour_reach_m);
+    if (is_beyond) met.wall = &beyond_;
+    if (met.wall != &in_the_way) to = range_to(*met.wall, beam.origin, beam.direction);
+    if (is_beyond) met = {&beyond_, measured - to.range, 0.0};
+  }
+  if (!(std::abs(to.secant) < most_secant_)) return;
+  BeamResidual& out = beams_[size_++];
+  out.normal = facing(met.wall->normal, beam.direction);
+  out.stretch = -std::abs(to.secant);
+  out.range = to.range;
+  out.has_return = has_return && met.wall->wall != missing_wall_;
+  out.residual = out.has_return ? met.residual : 0.0;
+  out.measured = out.has_return ? measured : to.range;
+  out.wall_variance = met.variance;
+  out.direction = beam.direction;
+  out.hit = beam.origin + to.range * beam.direction;
+  out.gradient = range_gradient(to.range, beam.direction, out.normal, beam.lever);
+  out.tau = beam.tau;
+  out.beam = static_cast<int>(beam.index);
+  out.wall = met.wall->wall;
+  out.is_beyond = is_beyond;
 }
 
 }  // namespace adit

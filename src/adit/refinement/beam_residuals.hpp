@@ -89,11 +89,25 @@ class BeamResiduals {
     double residual = 0.0;  // mean over all walls that it may have met ...
     double variance = 0.0;  // ... and its spread over these (m²)
   };
+  /// A beam on its way, in map axes.
+  struct Beam {
+    std::size_t index = 0;  // in the scan
+    double tau = 0.0;
+    Vector2d origin = Vector2d::Zero();
+    Vector2d direction = Vector2d::Zero();
+    Vector2d lever = Vector2d::Zero();  // from the vehicle to the origin
+  };
   void look_from(const LineMap& map, const Station& station, const Vector2d& vehicle,
                  const RefinementOptions& options, std::size_t stride, const WallDoubt& doubt);
+  void sweep_from(const LineMap& map, const Vector2d& centre, double same_place_m);
   void look_up_walls(const Station& station, std::size_t stride, std::span<int> walls) const;
-  Meeting meet(const WallLine& in_the_way, double measured, double range, const Vector2d& origin,
-               const Vector2d& direction, const Vector2d& lever, const WallDoubt& doubt);
+  Beam beam_of(const Station& station, const RigidTransform& map_from_laser,
+               const Vector2d& vehicle, std::size_t index) const;
+  void count_unmapped(std::size_t beam);
+  void add(const LineMap& map, const WallLine& in_the_way, const Beam& beam,
+           const RefinementOptions& options, bool looks_beyond, const WallDoubt& doubt);
+  Meeting meet(const WallLine& in_the_way, double measured, double range, const Beam& beam,
+               const WallDoubt& doubt);
 
   bool find_wall_beyond(const LineMap& map, const Vector2d& end, const Vector2d& direction,
                         double reach);
@@ -108,6 +122,7 @@ class BeamResiduals {
   double reach_ = 0.0;        // how far the map is looked at (m)
   double noise_reach_ = 0.0;  // a residual that the scanner's noise explains (m)
   ReturnLimits limits_;
+  double most_secant_ = 0.0;  // of a beam that is not too flat to its wall
   int missing_wall_ = -1;
   SweepTiming timing_;
   double first_bearing_ = 0.0;
