@@ -16,6 +16,8 @@
 namespace adit {
 namespace {
 
+constexpr std::uint64_t kMine = 1000000009;  // the mine and the way through it draw apart
+
 struct Key {
   std::string_view name;
   double AsBuiltOptions::*value;
@@ -80,7 +82,7 @@ Result<double> change_world(const SimulateArguments& arguments, World& world) {
   if (arguments.as_built) {
     const auto options = parse_as_built(*arguments.as_built);
     if (!options) return tl::unexpected(options.error());
-    world = as_built(std::move(world), *options, arguments.seed);
+    world = as_built(std::move(world), *options, arguments.seed + kMine);
     // Rough walls are not an exact plan, even where nothing else is off.
     sigma = std::hypot(sigma, std::max(long_plan_error(*options), options->rough_m));
   }

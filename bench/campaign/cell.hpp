@@ -39,8 +39,7 @@ enum class PlanError {
 enum class Clutter { none, five, eight, twelve, twenty, leaning, walkers, machine_ahead };
 
 /// What dead reckoning does. `usual` is what the configuration declares: 2 % and 0.5°/m from scan
-/// to scan, and 1 % lastingly; `paper` 5 % and 1.25°/m, likewise
-/// where it slips in bursts.
+/// to scan, and 1 % lastingly; `paper` 5 % and 1.25°/m, also where wheels slip in bursts.
 enum class Wheels {
   usual,
   paper,

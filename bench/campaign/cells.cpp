@@ -147,7 +147,7 @@ constexpr auto kCells = std::to_array<Cell>({
     {.name = "edgar-scan-ends-off-sick", .group = "one_scan", .mine = Mine::edgar, .plan = PlanError::ends_off, .bend_m = 0.1, .stated_m = 0.1, .task = Task::locate, .full = 10},
     {.name = "edgar-outside-sick", .group = "one_scan", .mine = Mine::edgar, .stated_m = 0.1, .task = Task::outside, .full = 10},
     {.name = "edgar-scan-bent-sick", .group = "one_scan", .mine = Mine::edgar, .plan = PlanError::bent, .task = Task::locate, .full = 10},
-    {.name = "niosh-scan-off-plan-sick", .group = "one_scan", .plan = PlanError::off_plan, .stated_m = 0.1, .task = Task::locate, .full = 10},
+    {.name = "niosh-scan-off-plan-sick", .group = "one_scan", .plan = PlanError::off_plan, .task = Task::locate, .full = 10},
 });
 // clang-format on
 

@@ -23,13 +23,14 @@ AnswerKind kind_of(const Estimate& estimate) {
 
 bool JudgedAnswer::is_beyond() const {
   if (!is_answer()) return false;
-  return position_error() > level_m || (level_rad && heading_error() > *level_rad);
+  // Not-a-number is beyond any level.
+  return !(position_error() <= level_m) || (level_rad && !(heading_error() <= *level_rad));
 }
 
 bool JudgedAnswer::is_wrong() const {
   if (!is_answer()) return false;
-  return position_error() > std::max(kRightMetres, level_m) ||
-         heading_error() > std::max(kRightRadians, level_rad.value_or(0.0));
+  return !(position_error() <= std::max(kRightMetres, level_m)) ||
+         !(heading_error() <= std::max(kRightRadians, level_rad.value_or(0.0)));
 }
 
 bool JudgedAnswer::is_right() const {

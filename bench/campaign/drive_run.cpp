@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "adit/simulation/scanner.hpp"
 #include "beam_bound.hpp"
 #include "oracle.hpp"
 
@@ -10,12 +11,11 @@ namespace {
 
 constexpr std::size_t kBoundEvery = 5;  // scans
 
-/// The scanner where it stands, not where it is said to.
-ScannerSpec truly_mounted(ScannerSpec spec) {
-  const ScannerFaults& faults = spec.faults;
-  spec.vehicle_from_laser =
-      spec.vehicle_from_laser * Pose2{faults.mount_x_m, faults.mount_y_m, faults.mount_yaw_rad};
-  return spec;
+/// Whether the machine stops for each scan.
+bool is_stopping(const Recording& recording) {
+  constexpr double kApart = 1.0;  // s; on the move scans come several times a second
+  const std::vector<StampedPose>& truth = recording.truth;
+  return truth.size() > 1 && truth[1].stamp - truth[0].stamp > kApart;
 }
 
 /// The bound of every fifth scan, of all where the machine stops for each.
@@ -24,12 +24,12 @@ class BoundAlong {
   explicit BoundAlong(const Scene& scene)
       : scene_(scene),
         mine_(LineMap::build(scene.world.walls)),
-        bound_(mine_, truly_mounted(scene.scanner())),
-        every_(scene.recording.wheels.empty() ? 1 : kBoundEvery) {}
+        bound_(mine_, as_mounted(scene.scanner())),
+        every_(is_stopping(scene.recording) ? 1 : kBoundEvery) {}
 
   void add(std::size_t scan, const JudgedAnswer& answer, Counting& counting) {
     if (scene_.recording.scans[scan].scanner != 0) return;
-    if (scan % every_ != 0 || !answer.is_answer() || answer.is_wrong()) return;
+    if (seen_++ % every_ != 0 || !answer.is_answer() || answer.is_wrong()) return;
     const StampedPose& truth = scene_.recording.truth[scan];
     std::vector<Segment> others = passing_segments(scene_.world, truth);
     others.insert(others.end(), scene_.world.clutter.begin(), scene_.world.clutter.end());
@@ -43,6 +43,7 @@ class BoundAlong {
   LineMap mine_;
   WallBeamBound bound_;
   std::size_t every_;
+  std::size_t seen_ = 0;  // scans of the first scanner
 };
 
 double moved_at(const Recording& recording, std::size_t scan) {
@@ -60,7 +61,7 @@ std::int64_t count_untold(const Scene& scene, const std::vector<Pose2>& believed
   if (scans == 0) return 0;
   const RayCaster mine(scene.world.walls);
   std::vector<ScanOracle> oracles;
-  for (const ScannerSpec& spec : scene.scanners) oracles.emplace_back(mine, truly_mounted(spec));
+  for (const ScannerSpec& spec : scene.scanners) oracles.emplace_back(mine, as_mounted(spec));
   LeadSum sum;
   std::int64_t untold = 0;
   for (std::size_t i = std::min(scene.fault_at, scans - 1); i < scans && !sum.is_settled(); ++i) {

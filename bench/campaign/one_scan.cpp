@@ -80,7 +80,7 @@ std::vector<Pose2> places_of(const Cell& cell, std::int64_t drive, Scene& mine) 
 Result<DriveCounts> run_single_scans(const Cell& cell, Grounds& grounds, std::uint64_t base_seed,
                                      std::int64_t drive) {
   using Clock = std::chrono::steady_clock;
-  const bool is_outside = cell.task == Task::outside || cell.plan == PlanError::off_plan;
+  const bool is_outside = cell.task == Task::outside;
   const auto sought_in = grounds.of(cell.mine, drive);
   if (!sought_in) return tl::unexpected(sought_in.error());
   const auto taken_in =

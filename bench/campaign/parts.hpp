@@ -19,7 +19,7 @@ void add_things(const Cell& cell, std::uint64_t seed, Scene& scene);
 /// What is wrong with dead reckoning, before the drive is recorded; `drive_s` is how long it takes.
 OdometryFaults wheel_faults(Wheels wheels, double drive_s, std::uint64_t seed);
 
-/// Within so much of a place (m) the plan has nothing, where it lacks a part.
+/// Within so much of a place (m) the plan has nothing, where it lacks a part: 30 m across.
 inline constexpr double kOffPlanRadius = 15.0;
 
 /// The scanners as they are: the one that is declared and what is wrong with it, or two, both

@@ -82,7 +82,7 @@ Share clopper_pearson(std::int64_t hits, std::int64_t trials) {
 
 void Histogram::add(double value, std::int64_t count) {
   int bin = kZero;
-  if (std::isinf(value)) {
+  if (!std::isfinite(value)) {
     bin = kInfinite;
   } else if (value > 0.0) {
     bin = static_cast<int>(std::lround(std::log(value) / std::log(kBinRatio)));

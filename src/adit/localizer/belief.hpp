@@ -60,8 +60,8 @@ class Belief {
   /// `predicted` is that, and is to be fitted anew.
   bool weigh(const RefinementInput& input, const Fits& fits, std::span<const int> worst_walls,
              const Motion& motion);
-  /// Takes the fit into the estimate if the scan explains itself there. True where the pose is
-  /// trusted and the scan has contributed.
+  /// Takes the fit into the estimate if the scan explains itself there. True where the residuals of
+  /// its points may teach the map's error.
   bool take_in(const Fits& fits, const Motion& motion);
   /// Begins a search in the whole mine for this scan, if one is due.
   void seek(const RefinementInput& input, const Fits& fits, const Motion& motion);

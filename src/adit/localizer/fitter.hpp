@@ -45,7 +45,7 @@ struct FitDetails {
   std::span<const BeamResidual> beams;
   std::span<const double> on_wall;   ///< probability of each beam to have met its wall
   std::span<const WallShare> walls;  ///< what each wall contributed
-  double map_sigma_m = 0.0;          ///< what a wall was taken to lie off its line (m)
+  double map_sigma_m = 0.0;          ///< what a wall may lie off its line, as learnt (m)
   const ScannerModel& scanner;
 };
 

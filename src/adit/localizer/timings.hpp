@@ -13,7 +13,7 @@ struct Timings {
   double estimation = 0.0;
   double refinement = 0.0;
   double search = 0.0;
-  double tracking = 0.0;  ///< prediction of the pose, fusion, judgement
+  double tracking = 0.0;  ///< prediction of the pose, fusion, beginning a search, judgement
   double total() const {
     return deskew + prediction + extraction + matching + estimation + refinement + search +
            tracking;

@@ -221,8 +221,10 @@ Drive drive_between(const DriveMap& map, const Vector2d& from, const Vector2d& t
   const int last = map.place_near(to);
   if (first < 0 || last < 0) return drive;
   const DriveRoutes routes(map, first, std::numeric_limits<double>::infinity());
+  const std::vector<int> way = routes.way_to(last);
+  if (way.empty() && first != last) return drive;
   Line line = {from};
-  for (const int place : routes.way_to(last)) {
+  for (const int place : way) {
     const Vector2d& next = map.place(static_cast<std::size_t>(place));
     if (next != line.back()) line.push_back(next);
   }

@@ -45,7 +45,8 @@ struct OdometryFaults {
     field("burst_m", self.burst_m, "length of a burst, within a half of it (m)");
     field("calm_m", self.calm_m, "way from burst to burst, within a half of it (m)");
     field("creep", self.creep, "motion ahead that is reported while the machine stands (m/s)");
-    field("unreported_below", self.unreported_below, "slower motion is not reported (m/s)");
+    field("unreported_below", self.unreported_below,
+          "motion slower than this, and turns below as many rad/s, are not reported (m/s)");
     field("dropouts", self.dropouts, "periods without odometry");
     field("dropout_s", self.dropout_s, "how long each of them lasts (s)");
     field("freeze_s", self.freeze_s,

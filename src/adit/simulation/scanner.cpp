@@ -43,20 +43,6 @@ double measure_beam(const RayCaster& fixed, std::span<const Segment> moving,
   return reported_range(range, spec, random);
 }
 
-/// The scanner as it really is: upside down, turned, elsewhere.
-ScannerSpec as_mounted(const ScannerSpec& stated) {
-  const ScannerFaults& faults = stated.faults;
-  ScannerSpec real = stated;
-  if (faults.is_mirrored) {
-    real.first_bearing = -stated.first_bearing;
-    real.bearing_step = -stated.bearing_step;
-  }
-  real.vehicle_from_laser.x += faults.mount_x_m;
-  real.vehicle_from_laser.y += faults.mount_y_m;
-  real.vehicle_from_laser.theta += faults.mount_yaw_rad;
-  return real;
-}
-
 double bearing_of(std::size_t beam, const ScannerSpec& spec) {
   return spec.first_bearing + static_cast<double>(beam) * spec.bearing_step;
 }
@@ -73,6 +59,19 @@ void add_body(const ScannerFaults& faults, LaserScan& scan) {
 }
 
 }  // namespace
+
+ScannerSpec as_mounted(const ScannerSpec& stated) {
+  const ScannerFaults& faults = stated.faults;
+  ScannerSpec real = stated;
+  if (faults.is_mirrored) {
+    real.first_bearing = -stated.first_bearing;
+    real.bearing_step = -stated.bearing_step;
+  }
+  real.vehicle_from_laser.x += faults.mount_x_m;
+  real.vehicle_from_laser.y += faults.mount_y_m;
+  real.vehicle_from_laser.theta += faults.mount_yaw_rad;
+  return real;
+}
 
 ScannerSpec cyclone() {
   ScannerSpec spec;

@@ -52,6 +52,9 @@ ScannerSpec sick_lms();
 /// Hokuyo-like: 728 beams over 240°, sigma 30 mm, 30 m.
 ScannerSpec hokuyo();
 
+/// The scanner as it really is, by its faults: upside down, turned, elsewhere (vehicle frame).
+ScannerSpec as_mounted(const ScannerSpec& stated);
+
 /// "cyclone", "sick", "sick_lms" or "hokuyo"; nothing for any other name.
 std::optional<ScannerSpec> scanner_named(std::string_view name);
 

@@ -42,8 +42,8 @@ struct WallClutterOptions {
 };
 
 /// So many pieces of one kind, by its name: `against`, `piercing`, `along`, `rows`, `groups`; or
-/// `mixed`: in eight pieces four against walls, two through them, one along and one row. Nothing
-/// for another name.
+/// `mixed`: a quarter through walls, a sixteenth along them, the rest against them. Nothing for
+/// another name.
 std::optional<WallClutterOptions> wall_clutter_named(std::string_view kind, int pieces);
 
 /// Puts it in sight of `world.path`; pieces may stand in each other. Where there is no room or no

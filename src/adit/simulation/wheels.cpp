@@ -34,6 +34,7 @@ Wheels::Move Wheels::next_move(double from, double to, const Pose2& start, Rando
   out.slip = slip_ratio_ + bursts.slip_over(metres);
   const double unreported = faults_.unreported_below * (to - from);
   out.is_reported = metres >= unreported || turn >= unreported;
+  if (!out.is_reported) out.error.setZero();
   if (metres < kStanding && turn < kStanding) out.error.x() += faults_.creep * (to - from);
   return out;
 }
