@@ -149,3 +149,11 @@ if(ADIT_PCH)
       LIBRARIES Eigen3::Eigen tl::expected rapidcheck GTest::gtest)
   endif()
 endif()
+
+# adit_without_string_alarms(target): where more is compiled at once, GCC 12 inlines std::string's operator+
+# so that it warns of copies that cannot be (GCC bug 105651 again).
+function(adit_without_string_alarms target)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-array-bounds)
+  endif()
+endfunction()
