@@ -4,7 +4,7 @@
 # anonymous namespace of its own, say) are never in one unit: the names are read at configuration.
 # ADIT_PCH reads Eigen, the standard library and the test libraries once, as precompiled headers.
 #
-# Both hide a missing #include: the `debug` and `asan` presets compile each file by itself.
+# Both hide a missing #include: the `debug` preset compiles each file by itself.
 option(ADIT_UNITY "Compile several files of a target together" OFF)
 option(ADIT_PCH "Use precompiled headers" OFF)
 set(adit_unit_files 12)  # of one unit at most: several units of a large room compile at the same time
