@@ -8,6 +8,11 @@
 option(ADIT_UNITY "Compile several files of a target together" OFF)
 option(ADIT_PCH "Use precompiled headers" OFF)
 set(adit_unit_files 12)  # of one unit at most: several units of a large room compile at the same time
+# For clang-tidy, to which the headers are most of the work, the files of all rooms share their units.
+option(ADIT_LINT "Only write a compilation database for clang-tidy" OFF)
+if(ADIT_LINT)
+  set(adit_unit_files 24)
+endif()
 
 # adit_names(file defined used): the names that the file defines outside of classes and functions, so at
 # the start of a line, and those that it takes from another namespace.
