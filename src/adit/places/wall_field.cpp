@@ -124,7 +124,7 @@ std::optional<WallField::Meeting> WallField::meet(const Vector2d& point) const {
 bool WallField::is_between(float from_x, float from_y, float to_x, float to_y,
                            float behind_m) const {
   constexpr float kStep = 1.0F / kPerMetre;
-  constexpr float kFreeStep = 1.0F;    // where no wall is near
+  constexpr float kFreeStep = 1.0F;       // where no wall is near
   constexpr float kFarthestHit = 500.0F;  // from the scanner (m)
   const float dx = to_x - from_x;
   const float dy = to_y - from_y;
