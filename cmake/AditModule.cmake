@@ -39,12 +39,12 @@ function(adit_module name)
 endfunction()
 
 # adit_lint_target(library...): the sources of all modules in the fewest units that hold them; never
-# built, only read by clang-tidy.
+# built, only read by clang-tidy. Compiler warnings are off: a name of one room may hide one of another.
 function(adit_lint_target)
   get_property(sources GLOBAL PROPERTY adit_sources)
   add_library(adit_lint OBJECT EXCLUDE_FROM_ALL ${sources})
   target_include_directories(adit_lint PRIVATE ${PROJECT_SOURCE_DIR}/src)
-  target_link_libraries(adit_lint PRIVATE adit_private ${ARGN})
+  target_link_libraries(adit_lint PRIVATE ${ARGN})
   adit_unity(adit_lint ${sources})
 endfunction()
 
