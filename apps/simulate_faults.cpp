@@ -54,7 +54,7 @@ Result<void> set_faults(const std::vector<std::string>& pairs, OdometryFaults& o
     OdometryFaults::visit(odometry, setter);
     ScannerFaults::visit(scanner, setter);
     if (!setter.is_known) return fail("--fault: no key '" + name + "'; --help lists them");
-    if (!setter.is_set) return fail("--fault: '" + text + "' is no number for " + name);
+    if (!setter.is_set) return fail(fmt::format("--fault: '{}' is no number for {}", text, name));
     if (!given.insert(name).second) return fail("--fault: '" + name + "' is given twice");
   }
   return {};

@@ -26,7 +26,7 @@ Result<void> write_files(const std::vector<SurveyFile>& files) {
     if (file.path.empty()) continue;
     std::error_code code;
     const bool is_new = fs::symlink_status(file.path, code).type() == fs::file_type::not_found;
-    if (const auto done = file.write(file.path); !done) {
+    if (auto done = file.write(file.path); !done) {
       for (const std::string& earlier : made) fs::remove(earlier, code);
       return done;
     }

@@ -42,8 +42,8 @@ std::vector<Segment> panel(std::int64_t count, double* width = nullptr) {
   if (width != nullptr) *width = rows * kPitch;
   std::vector<Segment> raw;
   for (int cell = 0; static_cast<std::int64_t>(raw.size()) < count; ++cell) {
-    const Vector2d center{500000.0 + kPitch * (cell % rows),
-                          4500000.0 + kPitch * static_cast<double>(cell / rows)};
+    const int row = cell / rows;
+    const Vector2d center{500000.0 + kPitch * (cell % rows), 4500000.0 + kPitch * row};
     const auto corners = pillar(center, random);
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Vector2d off{slip(random), slip(random)};

@@ -155,7 +155,8 @@ void prediction_drive(benchmark::State& state) {
   const int side = static_cast<int>(
       std::lround(std::sqrt(static_cast<double>(state.range(0)) / (4.0 * kPieces))));
   const LineMap map = LineMap::build(panel(side, side, kPieces));
-  const double middle = 24.0 * static_cast<double>(side / 2);
+  const int half = side / 2;
+  const double middle = 24.0 * half;
   Stage stage;
   std::vector<double> times;
   for (auto _ : state) {

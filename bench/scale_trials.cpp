@@ -56,7 +56,8 @@ std::vector<Segment> pillars(int side) {
 /// Places along the entries near the middle of a panel of side * side pillars.
 std::vector<Vector2d> drive(int side) {
   std::vector<Vector2d> places;
-  const double entry = kOrigin.y() + static_cast<double>(side / 2) * kPitch - 2.5;
+  const int middle = side / 2;
+  const double entry = kOrigin.y() + middle * kPitch - 2.5;
   for (int i = 0; i < 2000; ++i) places.emplace_back(kOrigin.x() + 100.0 + 0.3 * i, entry);
   return places;
 }

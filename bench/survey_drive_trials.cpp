@@ -146,8 +146,8 @@ std::vector<std::size_t> route_through(const RoadMap& roads, double length_m, Ra
 std::vector<Pose2> poses_along(const RoadMap& roads, const std::vector<std::size_t>& route) {
   std::vector<Pose2> poses;
   for (std::size_t i = 1; i < route.size(); ++i) {
-    const Vector2d a = roads.place(route[i - 1]);
-    const Vector2d b = roads.place(route[i]);
+    const Vector2d& a = roads.place(route[i - 1]);
+    const Vector2d& b = roads.place(route[i]);
     if ((b - a).norm() < 1e-6) continue;
     const double heading = std::atan2(b.y() - a.y(), b.x() - a.x());
     poses.push_back({a.x(), a.y(), heading});

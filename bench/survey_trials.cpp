@@ -65,7 +65,7 @@ Result<void> run(int argc, char** argv) {
   const double cpu_start = cpu_seconds();
   DriveSurvey survey(values.odometry, settings.configuration.drive);
   std::vector<double> stamps;
-  const auto followed = log->visit_scans([&](const LogScan& entry) {
+  auto followed = log->visit_scans([&](const LogScan& entry) {
     survey.add(entry.scan, values.scanner_of(entry.scan), entry.odom_from_vehicle);
     stamps.push_back(entry.scan.stamp);
   });
@@ -88,7 +88,7 @@ Result<void> run(int argc, char** argv) {
     trajectory.push_back({stamps[i], result.poses[i].map_from_vehicle});
   }
   if (argc > 2 && std::string(argv[2]) != "-") {
-    if (const auto judged = judge(argv[2], trajectory); !judged) return judged;
+    if (auto judged = judge(argv[2], trajectory); !judged) return judged;
   }
   if (argc > 3 && std::string(argv[3]) != "-") return write_trajectory(trajectory, argv[3]);
   return {};

@@ -4,10 +4,15 @@
 # anonymous namespace of its own, say) are never in one unit: the names are read at configuration.
 # ADIT_PCH reads Eigen, the standard library and the test libraries once, as precompiled headers.
 #
-# Both hide a missing #include: the `debug` and `asan` presets compile each file by itself.
+# Both hide a missing #include: the `debug` preset compiles each file by itself.
 option(ADIT_UNITY "Compile several files of a target together" OFF)
 option(ADIT_PCH "Use precompiled headers" OFF)
 set(adit_unit_files 12)  # of one unit at most: several units of a large room compile at the same time
+# For clang-tidy, to which the headers are most of the work, the files of all rooms share their units.
+option(ADIT_LINT "Only write a compilation database for clang-tidy" OFF)
+if(ADIT_LINT)
+  set(adit_unit_files 24)
+endif()
 
 # adit_names(file defined used): the names that the file defines outside of classes and functions, so at
 # the start of a line, and those that it takes from another namespace.
@@ -66,6 +71,20 @@ function(adit_meet out)
   set(${out} ${found} PARENT_SCOPE)
 endfunction()
 
+# adit_types(out file...): the types that the files define at the start of a line.
+function(adit_types out)
+  set(types)
+  foreach(file IN LISTS ARGN)
+    file(STRINGS ${file} lines REGEX "^(struct|class|enum class|enum|union|using) [A-Za-z_0-9]+( [:={]|;|$)")
+    foreach(line IN LISTS lines)
+      if(line MATCHES "^(struct|class|enum class|enum|union|using) ([A-Za-z_0-9]+)")
+        list(APPEND types ${CMAKE_MATCH_2})
+      endif()
+    endforeach()
+  endforeach()
+  set(${out} ${types} PARENT_SCOPE)
+endfunction()
+
 # adit_unity(target file...): each file joins the first unit that has room and with which it has no name in
 # common. What takes in a whole namespace, or has a constant of the same name as a header, stays alone.
 function(adit_unity target)
@@ -73,6 +92,12 @@ function(adit_unity target)
     return()
   endif()
   set(units 0)
+  set(public_types)
+  if(ADIT_LINT)
+    # Whoever names a type of its own as another room does is not joined with what reads that room.
+    file(GLOB headers ${PROJECT_SOURCE_DIR}/src/adit/*/*.hpp)
+    adit_types(public_types ${headers})
+  endif()
   foreach(file IN LISTS ARGN)
     get_filename_component(path ${file} ABSOLUTE)
     get_filename_component(folder ${path} DIRECTORY)
@@ -80,7 +105,9 @@ function(adit_unity target)
     adit_header_constants(${folder} constants)
     adit_meet(shadows THESE ${names} AND ${constants})
     file(STRINGS ${path} whole REGEX "^using namespace ")
-    if(shadows OR whole)
+    adit_types(own_types ${path})
+    adit_meet(homonym THESE ${own_types} AND ${public_types})
+    if(shadows OR whole OR homonym)
       set_source_files_properties(${file} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
       continue()
     endif()

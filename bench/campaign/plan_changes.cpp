@@ -135,7 +135,7 @@ bool move_wall(World& world, std::uint64_t seed) {
   const Segments right = world.plan;
   for (int i = 0; i < kTries; ++i) {
     const int choice = random.below(static_cast<int>(right.size()));
-    const Segment wall = right[static_cast<std::size_t>(choice)];
+    const Segment& wall = right[static_cast<std::size_t>(choice)];
     const double side = random.chance(0.5) ? kShift : -kShift;
     if (wall.length() < kShortest || !is_seen(right, wall, world.path)) continue;
     const Segments moved = displaced(wall, side * perpendicular((wall.b - wall.a).normalized()));

@@ -124,8 +124,8 @@ std::optional<WallField::Meeting> WallField::meet(const Vector2d& point) const {
 bool WallField::is_between(float from_x, float from_y, float to_x, float to_y,
                            float behind_m) const {
   constexpr float kStep = 1.0F / kPerMetre;
-  constexpr float kFreeStep = 1.0F;    // where no wall is near
-  constexpr float kFarthest = 500.0F;  // from the scanner (m)
+  constexpr float kFreeStep = 1.0F;       // where no wall is near
+  constexpr float kFarthestHit = 500.0F;  // from the scanner (m)
   const float dx = to_x - from_x;
   const float dy = to_y - from_y;
   const float range = std::sqrt(dx * dx + dy * dy);
@@ -133,7 +133,7 @@ bool WallField::is_between(float from_x, float from_y, float to_x, float to_y,
   const float east = dx / range;
   const float north = dy / range;
   std::int32_t before = kNone;
-  for (float way = 0.0F; way < std::min(range, kFarthest);) {
+  for (float way = 0.0F; way < std::min(range, kFarthestHit);) {
     const std::int32_t number = nearest(from_x + way * east, from_y + way * north);
     way += number == kNone ? kFreeStep : kStep;
     if (number == kNone || number == before) continue;

@@ -13,6 +13,7 @@
 #include "adit/simulation/random.hpp"
 #include "support/casting.hpp"
 #include "support/draws.hpp"
+#include "support/repeats.hpp"
 
 namespace adit {
 namespace {
@@ -193,13 +194,13 @@ Statistics fit_at_rest(const MapError& error, double noise_m, int scans) {
 }
 
 TEST(RefinementStatistics, OnAPerfectMapTheInformationIsTheBound) {
-  const Statistics perfect = fit_at_rest(kPerfect, 0.0, 200);
+  const Statistics perfect = fit_at_rest(kPerfect, 0.0, test::repeats(200));
   EXPECT_GT(perfect.least_stated, 0.95);
   EXPECT_LT(perfect.most_stated, 1.05);
 }
 
 TEST(RefinementStatistics, OnAPerfectMapTheErrorReachesTheBound) {
-  const Statistics noisy = fit_at_rest(kPerfect, 0.02, 500);
+  const Statistics noisy = fit_at_rest(kPerfect, 0.02, test::repeats(500));
   EXPECT_LT(noisy.over_bound, 1.2);
   EXPECT_GT(noisy.nees, 0.8);
   EXPECT_LT(noisy.nees, 1.2);
@@ -207,7 +208,7 @@ TEST(RefinementStatistics, OnAPerfectMapTheErrorReachesTheBound) {
 }
 
 TEST(RefinementStatistics, OnWallsThatErrTogetherTheCovarianceIsHonest) {
-  const Statistics rough = fit_at_rest({0.05, 1.5, 0.0}, 0.02, 300);
+  const Statistics rough = fit_at_rest({0.05, 1.5, 0.0}, 0.02, test::repeats(300));
   EXPECT_GT(rough.nees, 0.7);
   EXPECT_LT(rough.nees, 1.3);
   // As if each beam erred for itself, the covariance would be far too small.
@@ -256,7 +257,7 @@ struct Motion {
 };
 
 Statistics fit_on_the_move(SweepMoment stamp, double odometry_error, Motion& motion) {
-  constexpr int kScans = 300;
+  constexpr int kScans = test::repeats(300);
   Random random(22);
   const Walls plan = room();
   const LineMap map = map_of(plan);
@@ -300,7 +301,7 @@ TEST_P(Stamps, APerfectMovingScanIsFittedExactly) {
   Refiner refiner;
   double worst_m = 0.0;
   double worst_path = 0.0;
-  for (int trial = 0; trial < 50; ++trial) {
+  for (int trial = 0; trial < test::repeats(50); ++trial) {
     const Pose2 truth = random_pose(random);
     const LaserScan scan = sweep(plan, truth, kDrive, model, 0.0, random);
     const PoseWithCovariance start = start_near(truth, random);
@@ -317,7 +318,7 @@ TEST_P(Stamps, APerfectMovingScanIsFittedExactly) {
 TEST(RefinementStatistics, WithGoodWheelsAMovingScanIsHalfAsGoodAsOneAtRest) {
   Motion motion;
   const Statistics moving = fit_on_the_move(SweepMoment::middle, 0.02, motion);
-  const Statistics standing = fit_at_rest(kPerfect, 0.02, 300);
+  const Statistics standing = fit_at_rest(kPerfect, 0.02, test::repeats(300));
   EXPECT_LT(moving.rms_m, 2.0 * standing.rms_m);
   EXPECT_GT(moving.nees, 0.7);
   EXPECT_LT(moving.nees, 1.3);

@@ -7,6 +7,7 @@
 #include "adit/refinement/pose_search.hpp"
 #include "adit/refinement/refinement.hpp"
 #include "support/allocations.hpp"
+#include "support/repeats.hpp"
 
 namespace adit {
 namespace {
@@ -40,7 +41,7 @@ class Drive {
   }
 
   void run() {
-    for (double x = 6.0; x < 50.0; x += 1.7) {
+    for (double x = 6.0; x < 50.0; x += 1.7 * test::kFewer) {
       fit(x, scanner_, {});
       fit(x, moving_, motion_);
     }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "support/casting.hpp"
+#include "support/repeats.hpp"
 
 namespace adit {
 namespace {
@@ -89,7 +90,7 @@ TEST(WallNeighbours, MoreWallsThanAreKeptDoNotMixUp) {
   WallNeighbours near;
   near.reset(map, 0.3);
   std::mt19937_64 random(2);
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < test::repeats(500); ++i) {
     // Multiples of a power of two apart, whatever the number that are kept.
     const int first = static_cast<int>(random() % 900);
     for (const int wall : {first, first + 1024, first, first + 512, first + 256, first}) {

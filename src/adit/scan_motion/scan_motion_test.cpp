@@ -8,6 +8,7 @@
 
 #include "adit/geometry/segment.hpp"
 #include "adit/simulation/random.hpp"
+#include "support/repeats.hpp"
 
 namespace adit {
 namespace {
@@ -84,7 +85,7 @@ Pose2 small_move(Random& random) {
 TEST(ScanMotion, FindsTheMoveInARoomAsWellAsItStates) {
   Random random(1);
   double squares = 0.0;
-  constexpr int kTrials = 200;
+  constexpr int kTrials = test::repeats(200);
   for (int trial = 0; trial < kTrials; ++trial) {
     const Pose2 start = somewhere(random);
     const Pose2 truth = small_move(random);
@@ -176,7 +177,7 @@ TEST(ScanMotion, AScanOfElsewhereIsNotFound) {
 TEST(ScanMotion, AnotherRoomIsSeldomTakenForTheSame) {
   Random random(8);
   int found = 0;
-  for (int trial = 0; trial < 100; ++trial) {
+  for (int trial = 0; trial < test::repeats(100); ++trial) {
     const double w = random.uniform(3.0, 14.0);
     const double h = random.uniform(3.0, 9.0);
     const std::vector<Segment> other = {

@@ -9,6 +9,7 @@
 #include "adit/simulation/smooth_field.hpp"
 #include "adit/simulation/wall_chains.hpp"
 #include "adit/simulation/way.hpp"
+#include "support/repeats.hpp"
 
 namespace adit {
 namespace {
@@ -256,7 +257,7 @@ TEST(AsBuilt, LacksTheShareThatIsMissing) {
 
 TEST(AsBuilt, HasTheShareThatIsAddedAndNoneOnTheWay) {
   const World planned = pillars(6, 8);
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::repeats(20); ++seed) {
     AsBuiltOptions options;
     options.added_ratio = 0.05;
     const World built = as_built(planned, options, seed);
@@ -270,7 +271,7 @@ TEST(AsBuilt, HasTheShareThatIsAddedAndNoneOnTheWay) {
 
 TEST(AsBuilt, DisplacesTheShareAskedForAndKeepsItJoined) {
   const World planned = pillars(6, 8);
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::repeats(20); ++seed) {
     AsBuiltOptions options;
     options.chains_ratio = 0.1;
     options.chain_offset_m = 0.3;
@@ -295,7 +296,7 @@ TEST(AsBuilt, DisplacesTheShareAskedForAndKeepsItJoined) {
 TEST(AsBuilt, KeepsItsWayClear) {
   const World planned = pillars(3, 4);
   const double before = clearance(planned);
-  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::repeats(6); ++seed) {
     AsBuiltOptions smooth;
     smooth.bend_m = 0.3;
     smooth.distortion = 0.002;

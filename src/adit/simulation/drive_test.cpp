@@ -8,6 +8,7 @@
 
 #include "adit/simulation/mine_worlds.hpp"
 #include "adit/simulation/world.hpp"
+#include "support/repeats.hpp"
 
 namespace adit {
 namespace {
@@ -106,7 +107,7 @@ TEST(WallBuckets, MeasureAsBruteForceDoes) {
     walls.push_back({at, at + Vector2d(i % 2 == 0 ? 3.0 : 0.0, i % 4 == 1 ? 3.0 : 0.0)});
   }
   const WallBuckets buckets(walls);
-  for (int i = 0; i < 500; ++i) {
+  for (int i = 0; i < test::repeats(500); ++i) {
     const Vector2d from = 1.5 * point();
     const Vector2d to = from + random.uniform(0.0, 1.0) * unit_vector(random.uniform(-kPi, kPi));
     double nearest = 2.0;
@@ -244,10 +245,11 @@ TEST(DriveBetween, IsEmptyWhereNoWayLeadsFromOneOpeningToAnother) {
 }
 
 TEST(RandomDrive, GoesThroughAPanelWithoutItsPath) {
+  const double length_m = 150.0 / test::kFewer;
   const World world = panel({}, 3);
   const DriveMap map(world.walls);
-  const Drive drive = random_drive(map, {.length_m = 150.0}, 3);
-  EXPECT_NEAR(drive.length_m(), 150.0, 1e-9);
+  const Drive drive = random_drive(map, {.length_m = length_m}, 3);
+  EXPECT_NEAR(drive.length_m(), length_m, 1e-9);
   EXPECT_GE(least_clearance(world.walls, drive.poses), 0.8 - 1e-9);
 }
 

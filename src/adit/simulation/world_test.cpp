@@ -10,6 +10,7 @@
 #include "adit/simulation/mine_worlds.hpp"
 #include "adit/simulation/paper_run.hpp"
 #include "adit/simulation/ray_caster.hpp"
+#include "support/repeats.hpp"
 
 namespace adit {
 namespace {
@@ -205,7 +206,7 @@ TEST(Roughness, IsCorrelatedOverTheLengthAskedFor) {
 }
 
 TEST(Drift, IsOneOpeningWithRoomForTheDrive) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::repeats(20); ++seed) {
     const World world = drift({}, seed);
     expect_closed(world.plan);
     EXPECT_EQ(count_crossings(world.plan), 0) << "seed " << seed;
@@ -237,7 +238,7 @@ TEST(Worlds, FollowTheirSeeds) {
 }
 
 TEST(Clutter, KeepsClearOfWayWallsAndItself) {
-  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+  for (std::uint64_t seed = 0; seed < test::repeats(50); ++seed) {
     World world = mockup();
     ASSERT_EQ(add_clutter(world, clutter_of(8), seed), 8) << "seed " << seed;
     ASSERT_EQ(world.clutter.size(), 5u * 4u + 3u * 8u);
