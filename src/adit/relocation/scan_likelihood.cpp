@@ -21,22 +21,13 @@ double normal_density(double off, double wall_variance, double cosine, double no
   return std::exp(std::max(-200.0, -0.5 * off * off / variance)) / std::sqrt(kTwoPi * variance);
 }
 
-template <class Matrix>
-Matrix product(const Matrix& a, const Matrix& b) {
-  Matrix out{};
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    for (std::size_t j = 0; j < a.size(); ++j) {
-      for (std::size_t k = 0; k < a.size(); ++k) out[i][j] += a[i][k] * b[k][j];
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 void ScanLikelihood::set_scan(const LaserScan& scan, const ScannerModel& scanner,
-                              const MapError& error, const LikelihoodOptions& options) {
+                              const MapError& error, const LikelihoodOptions& options,
+                              const BeamPriors& priors) {
   options_ = options;
+  priors_ = priors;
   const ReturnLimits limits = return_limits(scan, scanner);
   reach_ = limits.none_from_m;
   noise_ = std::max(1e-6, scanner.beam_sigma_m() * scanner.beam_sigma_m());
@@ -54,14 +45,7 @@ void ScanLikelihood::set_scan(const LaserScan& scan, const ScannerModel& scanner
   }
   stated_noise_ = error.sigma_m() * error.sigma_m();
   set_map_error(error);
-  const double away = options.leave_ratio;
-  const double back = options.back_ratio;
-  const double gone = options.gone_ratio;
-  const std::array<Densities, kMets> step{{{1.0 - away - gone, away, gone},
-                                           {back, 1.0 - back - gone, gone},
-                                           {back, gone, 1.0 - back - gone}}};
-  next_ = step;
-  for (std::size_t i = 1; i < stride; ++i) next_ = product(next_, step);
+  next_ = transition(priors, stride).transpose();
 }
 
 void ScanLikelihood::set_map_error(const MapError& error) {
@@ -130,28 +114,28 @@ void ScanLikelihood::look_beyond(const Beam& beam, const Vector2d& laser, const 
   sight.beyond_off = met->off / sight.beyond_cosine;
 }
 
-ScanLikelihood::Densities ScanLikelihood::densities(const Beam& beam, const Sight& sight,
-                                                    const Offset& offset, double doubt_m) const {
+Vector3d ScanLikelihood::densities(const Beam& beam, const Sight& sight, const Offset& offset,
+                                   double doubt_m) const {
   if (!std::isfinite(sight.range)) {
     // The map has nothing in reach.
-    if (!beam.has_return) return {1.0, options_.dropout_ratio, 0.0};
+    if (!beam.has_return) return {1.0, priors_.dropout_ratio, 0.0};
     return {0.0, 1.0 / reach_, 0.0};
   }
   if (!beam.has_return) {
-    const double missed = sight.cosine < kFlatCosine ? 0.3 : options_.dropout_ratio;
+    const double missed = sight.cosine < kFlatCosine ? 0.3 : priors_.dropout_ratio;
     const double close = std::min(1.0, (reach_ - sight.range) / (3.0 * (doubt_m + 1.0)));
-    return {1.0 + (missed - 1.0) * std::max(0.0, close), options_.dropout_ratio,
-            options_.dropout_ratio};
+    return {1.0 + (missed - 1.0) * std::max(0.0, close), priors_.dropout_ratio,
+            priors_.dropout_ratio};
   }
   const double off = beam.range - sight.range;
   const double white = map_noise_ - offset_noise_ + doubt_m * doubt_m;
-  Densities densities{};
-  densities[kWall] = normal_density(off - offset.mean / sight.cosine, offset.variance + white,
-                                    sight.cosine, noise_);
-  densities[kOther] = off < 0.0 ? (1.0 - options_.long_ratio) / sight.range
-                                : options_.long_ratio / std::max(1.0, reach_);
+  Vector3d densities = Vector3d::Zero();
+  densities[Met::kWall] = normal_density(off - offset.mean / sight.cosine, offset.variance + white,
+                                         sight.cosine, noise_);
+  densities[Met::kOther] = off < 0.0 ? (1.0 - priors_.long_ratio) / sight.range
+                                     : priors_.long_ratio / std::max(1.0, reach_);
   if (sight.beyond_cosine > 0.0) {
-    densities[kBeyond] =
+    densities[Met::kBeyond] =
         normal_density(sight.beyond_off, offset_noise_ + white, sight.beyond_cosine, noise_);
   }
   return densities;
@@ -183,10 +167,7 @@ ScanLikelihood::Best ScanLikelihood::best_at(const LineMap& map, const Pose2& ma
 /// tracked from beam to beam by a Kalman filter, in which a beam counts by the probability that it
 /// met the wall (Bar-Shalom and Tse, Automatica 11, 1975).
 double ScanLikelihood::in_sight(double doubt_m) const {
-  const double away = options_.leave_ratio + options_.gone_ratio;
-  Densities met{options_.back_ratio / (options_.back_ratio + away), 0.0, 0.0};
-  met[kOther] = (1.0 - met[kWall]) * options_.leave_ratio / away;
-  met[kBeyond] = 1.0 - met[kWall] - met[kOther];
+  Vector3d met = steady_state(priors_);
   double sum = 0.0;
   Offset offset{0.0, offset_noise_};
   for (std::size_t k = 0; k < beams_.size(); ++k) {
@@ -195,18 +176,13 @@ double ScanLikelihood::in_sight(double doubt_m) const {
     const double same = sight.same_off;
     offset.mean *= same;
     offset.variance = offset_noise_ - same * same * (offset_noise_ - offset.variance);
-    const Densities density = densities(beam, sight, offset, doubt_m);
-    double scale = 1e-200;
-    for (std::size_t i = 0; i < kMets; ++i) scale += met[i] *= density[i];
+    met = met.cwiseProduct(densities(beam, sight, offset, doubt_m));
+    const double scale = 1e-200 + met.sum();
     sum += std::log(scale);
-    for (double& share : met) share /= scale;
+    met /= scale;
     if (beam.has_return && std::isfinite(sight.range))
-      follow(beam, sight, met[kWall], doubt_m, offset);
-    Densities next{};
-    for (std::size_t i = 0; i < kMets; ++i) {
-      for (std::size_t j = 0; j < kMets; ++j) next[j] += met[i] * next_[i][j];
-    }
-    met = next;
+      follow(beam, sight, met[Met::kWall], doubt_m, offset);
+    met = next_ * met;
   }
   return sum;
 }
