@@ -7,6 +7,7 @@
 #include "adit/places/wall_field.hpp"
 #include "adit/refinement/beam_chain.hpp"
 #include "adit/refinement/map_error.hpp"
+#include "adit/refinement/offset_process.hpp"
 #include "adit/relocation/options.hpp"
 #include "adit/scan/laser_scan.hpp"
 #include "adit/scan/scanner_model.hpp"
@@ -101,8 +102,7 @@ class ScanLikelihood {
   double reach_ = 0.0;
   double noise_ = 0.0;                    // variance of a range (m²)
   double map_noise_ = 0.0;                // variance of a wall's place (m²)
-  double offset_noise_ = 0.0;             // the part of it that neighbours share ...
-  double length_m_ = 1.0;                 // ... falling to 1/e within so much
+  OffsetProcess process_;                 // the part of it that neighbours share
   Matrix3d next_ = Matrix3d::Identity();  // of the chain: to the next (row) from what one beam met
   const WallField* field_ = nullptr;
   Visibility visibility_;
