@@ -135,11 +135,8 @@ constexpr std::array kAboveZero = {
 
 /// Probabilities of what may or may not happen.
 constexpr std::array kProbabilities = {
-    "refinement.clutter_begin_ratio", "refinement.clutter_end_ratio",
-    "refinement.long_ratio",          "protection.risk",
-    "likelihood.leave_ratio",         "likelihood.back_ratio",
-    "likelihood.long_ratio",          "likelihood.dropout_ratio",
-    "likelihood.gone_ratio",
+    "beams.leave_ratio", "beams.back_ratio",    "beams.long_ratio",
+    "beams.gone_ratio",  "beams.dropout_ratio", "protection.risk",
 };
 
 /// Counts that cannot be 0, and the least that they can be.

@@ -52,6 +52,8 @@ struct Configuration {
     table("estimation", self.localizer.estimation, "the pose that follows");
     table("belief", self.localizer.belief, "which feature estimates are believed");
     table("refinement", self.localizer.refinement, "all points against the plan");
+    table("beams", self.localizer.refinement.priors,
+          "what a beam may meet, for fits and searches alike");
     table("search", self.localizer.search, "where else to look when they do not fit");
     table("displacement", self.localizer.displacement,
           "returns that look like a wall in the wrong place");

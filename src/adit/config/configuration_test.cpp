@@ -8,7 +8,7 @@
 namespace adit {
 namespace {
 
-constexpr int kBoundedKeys = 86;  // that cannot be 0
+constexpr int kBoundedKeys = 83;  // that cannot be 0
 
 LoadedConfiguration loaded(std::string_view text) {
   auto read = parse_configuration(text, "c.toml");
@@ -61,7 +61,7 @@ TEST(Configuration, EveryStageHasATable) {
       "matching.consistency = \"paper\"\nestimation.weighting = \"points\"\n"
       "estimation.max_iterations = 7\n[prediction]\nmin_line_m = 0.6\n[extraction]\n"
       "min_line_m = 0.7\n[belief]\nmin_pairs = 4\n[motion]\nspeed_sigma_m_per_s = 1.5\n[deskew]\n"
-      "surface_beams = 5\n[refinement]\nlong_ratio = 0.2\n[search]\nreach_sigmas = 3\n"
+      "surface_beams = 5\n[beams]\nlong_ratio = 0.2\n[search]\nreach_sigmas = 3\n"
       "[displacement]\nmost_m = 1.5\n[tracking]\nbias_distance_m = 12\n[status]\n"
       "ambiguous_gain = 2\n[stamps]\ngap_s = 1\n[protection]\nrisk = 0.01\n[localizer]\n"
       "start_sigma_m = 0.5\n");
@@ -73,7 +73,7 @@ TEST(Configuration, EveryStageHasATable) {
   EXPECT_EQ(read.values.localizer.belief.min_pairs, 4);
   EXPECT_EQ(read.values.localizer.motion.speed_sigma_m_per_s, 1.5);
   EXPECT_EQ(read.values.localizer.deskew.surface_beams, 5);
-  EXPECT_EQ(read.values.localizer.refinement.long_ratio, 0.2);
+  EXPECT_EQ(read.values.localizer.refinement.priors.long_ratio, 0.2);
   EXPECT_EQ(read.values.localizer.search.reach_sigmas, 3.0);
   EXPECT_EQ(read.values.localizer.displacement.most_m, 1.5);
   EXPECT_EQ(read.values.localizer.tracking.bias_distance_m, 12.0);
@@ -210,8 +210,8 @@ TEST(Configuration, SomeKeysCannotBeZero) {
 }
 
 TEST(Configuration, ProbabilitiesLieBetweenZeroAndOne) {
-  for (const char* name : {"refinement.clutter_begin_ratio", "refinement.clutter_end_ratio",
-                           "refinement.long_ratio", "protection.risk", "likelihood.gone_ratio"}) {
+  for (const char* name : {"beams.leave_ratio", "beams.back_ratio", "beams.long_ratio",
+                           "beams.gone_ratio", "beams.dropout_ratio", "protection.risk"}) {
     const std::string key = name;
     for (const char* value : {"0", "-0.1", "1", "1.5", "inf", "nan", "\"0.1\""})
       EXPECT_EQ(error_of(key + " = " + value + "\n"),

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "adit/refinement/beam_chain.hpp"
+
 namespace adit {
 namespace {
 
@@ -34,19 +36,21 @@ double of(const BeamResidual& beam, const ByPlace& values) {
 
 /// The shares of returns from something else: anywhere before the wall, or, rarely, anywhere as far
 /// behind it.
-ByPlace other_shares(const RefinementOptions& options) {
-  return {options.long_ratio, 1.0 - options.long_ratio};
+ByPlace other_shares(const BeamPriors& priors) {
+  return {priors.long_ratio, 1.0 - priors.long_ratio};
 }
 
 /// How long the way is on which that may be (m). A beam that went farther behind than the wall is
 /// away makes it longer: a pose close by a wall must not make all that is behind it likely.
 double stretch_of(const BeamResidual& beam) { return std::max(beam.range, 0.5 * beam.measured); }
 
+constexpr Eigen::Index kScaleEvery = 8;
+
 }  // namespace
 
-double log_other(std::span<const BeamResidual> beams, const RefinementOptions& options) {
+double log_other(std::span<const BeamResidual> beams, const BeamPriors& priors) {
   LogProduct product;
-  const ByPlace shares = other_shares(options);
+  const ByPlace shares = other_shares(priors);
   for (const BeamResidual& beam : beams) {
     if (!beam.has_return) continue;
     product.multiply(of(beam, shares) / stretch_of(beam) * beam.measured);
@@ -55,9 +59,9 @@ double log_other(std::span<const BeamResidual> beams, const RefinementOptions& o
 }
 
 void BeamClassifier::classify(std::span<const BeamResidual> beams,
-                              std::span<const double> variances, const RefinementOptions& options) {
-  find_ratios(beams, variances, options);
-  run_chain(options);
+                              std::span<const double> variances, const BeamPriors& priors) {
+  find_ratios(beams, variances, priors);
+  run_chain(priors);
   for (std::size_t k = 0; k < beams.size(); ++k) {
     if (!beams[k].has_return) on_wall_[static_cast<Eigen::Index>(k)] = 0.0;
   }
@@ -65,17 +69,18 @@ void BeamClassifier::classify(std::span<const BeamResidual> beams,
 
 /// The densities of a return, from the wall against something else.
 void BeamClassifier::find_ratios(std::span<const BeamResidual> beams,
-                                 std::span<const double> variances,
-                                 const RefinementOptions& options) {
+                                 std::span<const double> variances, const BeamPriors& priors) {
   size_ = beams.size();
   const auto size = static_cast<Eigen::Index>(size_);
   if (ratio_.size() < size) {  // grows only: the buffers of the longest scan stay
     ratio_.resize(size);
+    beyond_.resize(size);
     on_wall_.resize(size);
+    gone_.resize(size);
     other_.resize(size);
     peak_.resize(size);
   }
-  ByPlace peaks_per_m = other_shares(options);
+  ByPlace peaks_per_m = other_shares(priors);
   for (double& value : peaks_per_m) value = 1.0 / (value * std::sqrt(kTwoPi));
   for (Eigen::Index k = 0; k < size; ++k) {
     const BeamResidual& beam = beams[static_cast<std::size_t>(k)];
@@ -89,50 +94,49 @@ void BeamClassifier::find_ratios(std::span<const BeamResidual> beams,
   peaks /= variance.sqrt();
   ratios = (ratios / variance).max(-200.0).exp() * peaks;
   for (Eigen::Index k = 0; k < size; ++k) {
-    if (beams[static_cast<std::size_t>(k)].is_beyond) ratio_[k] *= options.beyond_ratio;
-    if (!beams[static_cast<std::size_t>(k)].has_return) ratio_[k] = 1.0;
+    const BeamResidual& beam = beams[static_cast<std::size_t>(k)];
+    if (!beam.has_return) ratio_[k] = 1.0;
+    // The residual is of one of both walls: the other is not what the beam met.
+    beyond_[k] = beam.is_beyond || !beam.has_return ? ratio_[k] : 0.0;
+    if (beam.is_beyond && beam.has_return) ratio_[k] = 0.0;
   }
 }
 
 /// Forward and backward pass over unnormalised probabilities, scaled now and then: products alone
 /// depend on the beam before.
-void BeamClassifier::run_chain(const RefinementOptions& options) {
-  constexpr Eigen::Index kScaleEvery = 8;
+void BeamClassifier::run_chain(const BeamPriors& priors) {
   const auto size = static_cast<Eigen::Index>(size_);
-  const double leave = options.clutter_begin_ratio;
-  const double back = options.clutter_end_ratio;
+  const Matrix3d next = transition(priors);
+  Vector3d met = steady_state(priors);
   LogProduct evidence;
-  double wall = back / (leave + back);
-  double other = 1.0 - wall;
   for (Eigen::Index k = 0; k < size; ++k) {
-    wall *= ratio_[k];
+    met[Met::kWall] *= ratio_[k];
+    met[Met::kBeyond] *= beyond_[k];
     if (k % kScaleEvery == 0) {
-      const double sum = wall + other;
+      const double sum = met.sum();
       evidence.multiply(sum);
-      wall /= sum;
-      other /= sum;
+      met /= sum;
     }
-    on_wall_[k] = wall;
-    other_[k] = other;
-    const double stays = wall * (1.0 - leave) + other * back;
-    other = wall * leave + other * (1.0 - back);
-    wall = stays;
+    on_wall_[k] = met[Met::kWall];
+    other_[k] = met[Met::kOther];
+    gone_[k] = met[Met::kBeyond];
+    met = next.transpose() * met;
   }
-  evidence.multiply(wall + other);
+  evidence.multiply(met.sum());
   log_evidence_ = evidence.log();
-  double wall_ahead = 1.0;  // likelihood of the beams after this one, by its class
-  double other_ahead = 1.0;
+  run_backward(next);
+}
+
+void BeamClassifier::run_backward(const Matrix3d& next) {
+  const auto size = static_cast<Eigen::Index>(size_);
+  Vector3d ahead = Vector3d::Ones();  // likelihood of the beams after this one, by what it met
   for (Eigen::Index k = size; k-- > 0;) {
-    on_wall_[k] *= wall_ahead;
-    other_[k] *= other_ahead;
-    const double seen = ratio_[k] * wall_ahead;
-    wall_ahead = (1.0 - leave) * seen + leave * other_ahead;
-    other_ahead = back * seen + (1.0 - back) * other_ahead;
-    if (k % kScaleEvery == 0) {
-      const double scale = 1.0 / (wall_ahead + other_ahead);
-      wall_ahead *= scale;
-      other_ahead *= scale;
-    }
+    on_wall_[k] = on_wall_[k] * ahead[Met::kWall] + gone_[k] * ahead[Met::kBeyond];
+    other_[k] *= ahead[Met::kOther];
+    ahead[Met::kWall] *= ratio_[k];
+    ahead[Met::kBeyond] *= beyond_[k];
+    ahead = next * ahead;
+    if (k % kScaleEvery == 0) ahead /= ahead.sum();
   }
   on_wall_.head(size) /= on_wall_.head(size) + other_.head(size);
 }

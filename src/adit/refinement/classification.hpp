@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "adit/refinement/beam_priors.hpp"
 #include "adit/refinement/beam_residuals.hpp"
 
 namespace adit {
@@ -29,22 +30,24 @@ struct BeamSummary {
 
 /// Log of the density of all returns under "something else", against one that does not ask the map:
 /// added to the evidence it compares poses that see other walls.
-double log_other(std::span<const BeamResidual> beams, const RefinementOptions& options);
+double log_other(std::span<const BeamResidual> beams, const BeamPriors& priors);
 
 /// Which beams met the wall of the map, as probabilities.
 ///
-/// Two classes in a chain along the sweep: the map's wall, or something else. What stands in the
-/// way covers a run of neighbouring beams, so that a beam's neighbours speak for it too (forward
-/// and backward pass of a hidden Markov model). A beam without return says nothing.
+/// Three classes in a chain along the sweep: the map's wall, something else, or a wall behind one
+/// that is gone. What stands in the way, or is gone, covers a run of neighbouring beams, so that a
+/// beam's neighbours speak for it too (forward and backward pass of a hidden Markov model). A beam
+/// without return says nothing.
 class BeamClassifier {
  public:
   /// `variances`: of each residual if it met the wall.
   void classify(std::span<const BeamResidual> beams, std::span<const double> variances,
-                const RefinementOptions& options);
+                const BeamPriors& priors);
 
-  /// Probability of each beam to have met the map's wall; 0 without return.
+  /// Probability of each beam to have met the map's wall, or the one behind it that its residual
+  /// is of; 0 without return.
   std::span<const double> on_wall() const { return {on_wall_.data(), size_}; }
-  /// Log of the probability density of all returns under both classes, against "something else"
+  /// Log of the probability density of all returns under all classes, against "something else"
   /// everywhere: what the map explains of the scan.
   double log_evidence() const { return log_evidence_; }
   /// Of the beams that were classified last.
@@ -52,13 +55,16 @@ class BeamClassifier {
 
  private:
   void find_ratios(std::span<const BeamResidual> beams, std::span<const double> variances,
-                   const RefinementOptions& options);
-  void run_chain(const RefinementOptions& options);
+                   const BeamPriors& priors);
+  void run_chain(const BeamPriors& priors);
+  void run_backward(const Matrix3d& next);
 
-  Eigen::ArrayXd ratio_;  // of the densities, wall against something else; 1 says nothing
-  Eigen::ArrayXd peak_;   // of these, for a residual of none
-  Eigen::ArrayXd on_wall_;
-  Eigen::ArrayXd other_;  // the chain's messages for the other class
+  Eigen::ArrayXd ratio_;    // of the densities, wall against something else; 1 says nothing
+  Eigen::ArrayXd beyond_;   // the same for a wall behind one that is gone
+  Eigen::ArrayXd peak_;     // of these, for a residual of none
+  Eigen::ArrayXd on_wall_;  // the chain's messages: for the wall, then for either wall ...
+  Eigen::ArrayXd gone_;     // ... for the one behind it ...
+  Eigen::ArrayXd other_;    // ... for something else
   std::size_t size_ = 0;
   double log_evidence_ = 0.0;
 };

@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "adit/refinement/beam_chain.hpp"
 #include "adit/simulation/random.hpp"
 
 namespace adit {
@@ -27,11 +28,10 @@ BeamResidual beam(double residual, double range = kRange, bool has_return = true
 
 struct Classified {
   explicit Classified(const std::vector<BeamResidual>& beams,
-                      const std::vector<double>& variances = {},
-                      const RefinementOptions& options = {}) {
+                      const std::vector<double>& variances = {}, const BeamPriors& priors = {}) {
     const std::vector<double> same(beams.size(), kSigma * kSigma);
     const std::vector<double>& each = variances.empty() ? same : variances;
-    classifier.classify(beams, each, options);
+    classifier.classify(beams, each, priors);
     summary = classifier.summary(beams);
   }
   double on_wall(std::size_t beam) const { return classifier.on_wall()[beam]; }
@@ -43,11 +43,11 @@ struct Classified {
 /// Density of a return if the beam met the wall, against something else: that stands anywhere up to
 /// the wall's range before it or, less often, as far behind, and farther where the beam went
 /// farther.
-double ratio_of(const BeamResidual& at, double variance, const RefinementOptions& options) {
+double ratio_of(const BeamResidual& at, double variance, const BeamPriors& priors) {
   if (!at.has_return) return 1.0;
   const double wall =
       std::exp(-0.5 * at.residual * at.residual / variance) / std::sqrt(kTwoPi * variance);
-  const double share = at.residual < 0.0 ? 1.0 - options.long_ratio : options.long_ratio;
+  const double share = at.residual < 0.0 ? 1.0 - priors.long_ratio : priors.long_ratio;
   const double way = std::max(at.range, at.has_return ? 0.5 * (at.range + at.residual) : 0.0);
   return wall / (share / way);
 }
@@ -57,24 +57,37 @@ struct Exact {
   double log_evidence = 0.0;
 };
 
+/// Of a return if the beam met a wall of that class: its residual is of one of both.
+double ratio_in(Eigen::Index met, const BeamResidual& at, double variance,
+                const BeamPriors& priors) {
+  if (met == Met::kOther || !at.has_return) return 1.0;
+  return (met == Met::kBeyond) == at.is_beyond ? ratio_of(at, variance, priors) : 0.0;
+}
+
 /// Every sequence of classes, one by one; a chain in its steady state.
 Exact enumerate(const std::vector<BeamResidual>& beams, const std::vector<double>& variances,
-                const RefinementOptions& options) {
-  const double leave = options.clutter_begin_ratio;
-  const double back = options.clutter_end_ratio;
+                const BeamPriors& priors) {
+  const Matrix3d next = transition(priors);
+  const Vector3d begin = steady_state(priors);
   const std::size_t count = beams.size();
   Exact exact{std::vector<double>(count, 0.0), 0.0};
   double total = 0.0;
-  for (unsigned sequence = 0; sequence < (1u << count); ++sequence) {
-    const auto wall = [&](std::size_t i) { return ((sequence >> i) & 1u) != 0; };
-    double probability = (wall(0) ? back : leave) / (leave + back);
+  std::size_t sequences = 1;
+  for (std::size_t i = 0; i < count; ++i) sequences *= 3;
+  for (std::size_t sequence = 0; sequence < sequences; ++sequence) {
+    std::vector<Eigen::Index> met;
+    for (std::size_t left = sequence; met.size() < count; left /= 3) {
+      met.push_back(static_cast<Eigen::Index>(left % 3));
+    }
+    double probability = begin[met[0]];
     for (std::size_t i = 0; i < count; ++i) {
-      if (i > 0 && wall(i - 1)) probability *= wall(i) ? 1.0 - leave : leave;
-      if (i > 0 && !wall(i - 1)) probability *= wall(i) ? back : 1.0 - back;
-      if (wall(i)) probability *= ratio_of(beams[i], variances[i], options);
+      if (i > 0) probability *= next(met[i - 1], met[i]);
+      probability *= ratio_in(met[i], beams[i], variances[i], priors);
     }
     total += probability;
-    for (std::size_t i = 0; i < count; ++i) exact.on_wall[i] += wall(i) ? probability : 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+      exact.on_wall[i] += met[i] == Met::kOther ? 0.0 : probability;
+    }
   }
   for (double& one : exact.on_wall) one /= total;
   exact.log_evidence = std::log(total);
@@ -84,27 +97,46 @@ Exact enumerate(const std::vector<BeamResidual>& beams, const std::vector<double
 TEST(BeamClassifier, AgreesWithEverySequenceOfClasses) {
   Random random(1);
   for (int trial = 0; trial < 300; ++trial) {
-    RefinementOptions options;
-    options.clutter_begin_ratio = random.uniform(0.005, 0.5);
-    options.clutter_end_ratio = random.uniform(0.005, 0.5);
-    options.long_ratio = random.uniform(0.02, 0.6);
+    BeamPriors priors;
+    priors.leave_ratio = random.uniform(0.005, 0.5);
+    priors.back_ratio = random.uniform(0.005, 0.5);
+    priors.gone_ratio = random.uniform(0.001, 0.5);
+    priors.long_ratio = random.uniform(0.02, 0.6);
     std::vector<BeamResidual> beams;
     std::vector<double> variances;
-    for (int i = 0; i < 1 + random.below(10); ++i) {
+    for (int i = 0; i < 1 + random.below(7); ++i) {
       const double sigma = random.uniform(0.01, 0.3);
       variances.push_back(sigma * sigma);
       const bool is_return = random.chance(0.8);
       const double range = random.uniform(0.5, 20.0);
       beams.push_back(beam(4.0 * sigma * random.normal(), range, is_return));
+      beams.back().is_beyond = random.chance(0.4);
     }
-    const Exact exact = enumerate(beams, variances, options);
-    const Classified found(beams, variances, options);
+    const Exact exact = enumerate(beams, variances, priors);
+    const Classified found(beams, variances, priors);
     ASSERT_EQ(found.classifier.on_wall().size(), beams.size());
     EXPECT_NEAR(found.classifier.log_evidence(), exact.log_evidence, 1e-9);
     for (std::size_t i = 0; i < beams.size(); ++i) {
       EXPECT_NEAR(found.on_wall(i), beams[i].has_return ? exact.on_wall[i] : 0.0, 1e-9);
     }
   }
+}
+
+/// A door costs once, not once a beam.
+TEST(BeamClassifier, AWallThatIsGoneIsGoneForARunOfBeams) {
+  const auto evidence = [](std::size_t through) {
+    std::vector<BeamResidual> beams(60, beam(0.0));
+    for (std::size_t i = 20; i < 20 + through; ++i) beams[i].is_beyond = true;
+    const Classified found(beams);
+    for (std::size_t i = 0; i < 60; ++i) EXPECT_GT(found.on_wall(i), 0.9) << i;
+    return found.classifier.log_evidence();
+  };
+  const BeamPriors priors;
+  const double stays = std::log((1.0 - priors.gone_ratio) * (1.0 - priors.back_ratio));
+  const double no_door = evidence(0);
+  const double of_one = evidence(1);
+  EXPECT_NEAR(evidence(20) - of_one, 19.0 * (stays - std::log(0.995 * 0.97)), 0.05);
+  EXPECT_NEAR(of_one - no_door, std::log(priors.gone_ratio * 0.1 / (0.995 * 0.97 * 0.97)), 0.2);
 }
 
 TEST(BeamClassifier, ARunOfShortBeamsStandsBeforeTheWall) {
@@ -214,20 +246,20 @@ TEST(BeamClassifier, LongScansKeepTheirEvidence) {
 
 TEST(BeamClassifier, SomethingElseIsLikelierBeforeNearWalls) {
   // The same returns at 4 m: as clutter before a wall at 8 m, or before one at 40 m.
-  const RefinementOptions options;
+  const BeamPriors priors;
   const auto other = [&](double range) {
-    return log_other(std::vector<BeamResidual>(10, beam(4.0 - range, range)), options);
+    return log_other(std::vector<BeamResidual>(10, beam(4.0 - range, range)), priors);
   };
   EXPECT_NEAR(other(8.0) - other(40.0), 10.0 * std::log(5.0), 1e-9);
-  EXPECT_NEAR(other(8.0), 10.0 * std::log((1.0 - options.long_ratio) * 0.5), 1e-9);
-  EXPECT_EQ(log_other(std::vector<BeamResidual>(3, beam(0.0, 8.0, false)), options), 0.0);
+  EXPECT_NEAR(other(8.0), 10.0 * std::log((1.0 - priors.long_ratio) * 0.5), 1e-9);
+  EXPECT_EQ(log_other(std::vector<BeamResidual>(3, beam(0.0, 8.0, false)), priors), 0.0);
 }
 
 /// All that is seen from there lies far behind the wall.
 TEST(LogOther, APoseCloseByAWallMakesNothingBehindItLikely) {
-  const RefinementOptions options;
+  const BeamPriors priors;
   const auto other = [&](double range) {
-    return log_other(std::vector<BeamResidual>(10, beam(9.0 - range, range)), options);
+    return log_other(std::vector<BeamResidual>(10, beam(9.0 - range, range)), priors);
   };
   EXPECT_NEAR(other(0.001), other(0.1), 1e-9);
   EXPECT_LT(other(0.001), 0.0);

@@ -1,14 +1,13 @@
 #pragma once
 
 #include "adit/geometry/angle.hpp"
+#include "adit/refinement/beam_priors.hpp"
 
 namespace adit {
 
 /// How the beams of a scan are weighed, and when the fit is done.
 struct RefinementOptions {
-  double clutter_begin_ratio = 0.03;
-  double clutter_end_ratio = 0.10;
-  double long_ratio = 0.1;
+  BeamPriors priors;  ///< a table of their own: searches share them
   double max_incidence_rad = radians(89.0);
   int max_iterations = 12;
   double step_tolerance = 1.0;
@@ -18,18 +17,11 @@ struct RefinementOptions {
   double same_place_m = 0.01;
   bool looks_beyond = true;
   double neighbour_reach_m = 0.3;
-  double beyond_ratio = 0.1;
   double corner_reach_ratio = 5.0;
   double corner_sigma_ratio = 12.0;
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
-    field("clutter_begin_ratio", self.clutter_begin_ratio,
-          "probability that the beam after one on a wall of the map meets something else");
-    field("clutter_end_ratio", self.clutter_end_ratio,
-          "probability that the beam after one on something else is back on the map's wall");
-    field("long_ratio", self.long_ratio,
-          "share of the beams that meet something else behind the map's wall, not before it");
     field("max_incidence_rad", self.max_incidence_rad,
           "beams that meet a wall flatter than this (rad from its normal) are not used");
     field("max_iterations", self.max_iterations, "most Gauss-Newton steps");
@@ -48,9 +40,6 @@ struct RefinementOptions {
     field(
         "neighbour_reach_m", self.neighbour_reach_m,
         "a wall no farther than this from the one in the beam's way may be what the beam met (m)");
-    field("beyond_ratio", self.beyond_ratio,
-          "probability that a wall is gone, for beams that end at another wall behind it: doors, "
-          "curtains, cuts");
     field("corner_reach_ratio", self.corner_reach_ratio,
           "nearer to a corner than this times the map's error, the wall may be rounded off");
     field(

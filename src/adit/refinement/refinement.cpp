@@ -129,7 +129,7 @@ Pose2 Refiner::most_likely(const RefinementInput& input, const PoseWithCovarianc
 
 /// Of the returns at the last pose looked at, against what no pose changes.
 double Refiner::log_likelihood(const RefinementOptions& options) const {
-  return classifier_.log_evidence() + log_other(residuals_.beams(), options) +
+  return classifier_.log_evidence() + log_other(residuals_.beams(), options.priors) +
          residuals_.log_unmapped();
 }
 
@@ -158,7 +158,7 @@ void Refiner::weigh(const RefinementInput& input, const Matrix3d& spread,
     noise_[k] += rounding * rounding;
   }
   spread_share_ = share / std::max<double>(1.0, static_cast<double>(beams.size()));
-  classifier_.classify(beams, spread_, options);
+  classifier_.classify(beams, spread_, options.priors);
 }
 
 /// The normal equations of all beams on walls, and each wall's part in them.

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 
 #include "adit/geometry/pose2.hpp"
 #include "adit/refinement/map_error.hpp"
+#include "adit/refinement/offset_process.hpp"
 
 namespace adit {
 
@@ -47,21 +47,16 @@ class OffsetWhitener {
  public:
   using Vector = Eigen::Matrix<double, N, 1>;
 
-  explicit OffsetWhitener(const MapError& error)
-      : per_metre_(1.0 / std::max(error.length_m, 1e-3)) {}
+  explicit OffsetWhitener(const MapError& error) : process_{1.0, error.length_m} {}
 
-  /// The next point that the sweep meets, `normal` towards the scanner: how much of the offset it
-  /// shares with the one before. None across a corner, all of it along a wall or a smooth bend.
+  /// The next point that the sweep meets, `normal` towards the scanner.
   void move_to(const Vector2d& hit, const Vector2d& normal) {
-    const double metres = (hit - hit_).norm() * per_metre_;
-    const double bend = std::max(0.0, normal.dot(normal_));
-    // 1 / (1 + x + x²/2) for exp(-x): any correlation within [0, 1] makes a proper process.
-    const double correlation = bend / (1.0 + metres * (1.0 + 0.5 * metres));
+    const double correlation = process_.correlation(hit_, normal_, hit, normal);
     hit_ = hit;
     normal_ = normal;
     residual_ *= correlation;
     gradient_ *= correlation;
-    state_variance_ = 1.0 + correlation * correlation * (state_variance_ - 1.0);
+    state_variance_ = process_.carried(state_variance_, correlation);
   }
 
   /// What the beam says beyond those before it. `offset`: change of its range per sigma of the
@@ -89,7 +84,7 @@ class OffsetWhitener {
  private:
   static constexpr double kHuber = 1.8;  // 98 % efficient where all noise is normal
 
-  double per_metre_;
+  OffsetProcess process_;             // in sigmas of the offset
   double state_variance_ = 1.0;       // of the offset in its sigmas, after the beams so far
   double residual_ = 0.0;             // the offset as the residuals show it ...
   Vector gradient_ = Vector::Zero();  // ... and what a change of the parameters takes from it

@@ -9,15 +9,9 @@
 
 namespace adit {
 
-/// What a beam meets, for the likelihood of a scan from a pose that nothing but the scan speaks
-/// for.
+/// The likelihood of a scan from a pose that nothing but the scan speaks for.
 struct LikelihoodOptions {
   int beams = 120;
-  double leave_ratio = 0.03;
-  double back_ratio = 0.10;
-  double long_ratio = 0.05;
-  double dropout_ratio = 0.05;
-  double gone_ratio = 0.005;
   double trust = 0.2;
   double trust_most = 0.4;
   double trusted_error_ratio = 0.25;
@@ -25,19 +19,6 @@ struct LikelihoodOptions {
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
     field("beams", self.beams, "so many beams of a scan are looked at");
-    field("leave_ratio", self.leave_ratio,
-          "probability that the scan's next beam after one on a wall of the map meets something "
-          "else");
-    field("back_ratio", self.back_ratio,
-          "probability that the next beam after one on something else is back on the map's wall");
-    field("long_ratio", self.long_ratio,
-          "share of the beams that meet something else behind the map's wall, not before it");
-    field("dropout_ratio", self.dropout_ratio,
-          "probability that a beam brings no return from a wall in reach");
-    field(
-        "gone_ratio", self.gone_ratio,
-        "probability that the next beam after one on a wall of the map passes where the map has a "
-        "wall that is gone, and meets the one beyond");
     field("trust", self.trust,
           "what counts of a log likelihood: what stands before the walls, and how they differ from "
           "the plan, is shared by more beams than the model knows ...");

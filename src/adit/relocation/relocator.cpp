@@ -64,7 +64,7 @@ const RelocationResult& Relocator::locate(const RelocationQuery& query,
   coarse_refinement_.same_place_m = options.same_place_m;
   coarse_refinement_.looks_beyond = false;
   likelihood_.set_walls(index_.walls());
-  likelihood_.set_scan(query.scan, query.scanner, query.map_error, likelihood);
+  likelihood_.set_scan(query.scan, query.scanner, query.map_error, likelihood, refinement.priors);
   count_lines(query, options);
   const auto& [scan, scanner, map_error, motion, within] = query;
   look(query, search_.find(index_, scan, scanner, within, options), options, likelihood);
@@ -288,7 +288,7 @@ void Relocator::examine_best(const RelocationQuery& query, const LikelihoodOptio
   if (result_.poses.empty()) return;
   LikelihoodOptions more = likelihood;
   more.beams = std::max(kBeams, likelihood.beams);
-  all_beams_.set_scan(query.scan, query.scanner, result_.map_error, more);
+  all_beams_.set_scan(query.scan, query.scanner, result_.map_error, more, refinement_.priors);
   const Pose2 laser = result_.poses.front().pose * query.scan.vehicle_from_laser;
   result_.shares = all_beams_.shares_at(map_, laser, kFittedDoubt);
 }

@@ -21,22 +21,13 @@ double normal_density(double off, double wall_variance, double cosine, double no
   return std::exp(std::max(-200.0, -0.5 * off * off / variance)) / std::sqrt(kTwoPi * variance);
 }
 
-template <class Matrix>
-Matrix product(const Matrix& a, const Matrix& b) {
-  Matrix out{};
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    for (std::size_t j = 0; j < a.size(); ++j) {
-      for (std::size_t k = 0; k < a.size(); ++k) out[i][j] += a[i][k] * b[k][j];
-    }
-  }
-  return out;
-}
-
 }  // namespace
 
 void ScanLikelihood::set_scan(const LaserScan& scan, const ScannerModel& scanner,
-                              const MapError& error, const LikelihoodOptions& options) {
+                              const MapError& error, const LikelihoodOptions& options,
+                              const BeamPriors& priors) {
   options_ = options;
+  priors_ = priors;
   const ReturnLimits limits = return_limits(scan, scanner);
   reach_ = limits.none_from_m;
   noise_ = std::max(1e-6, scanner.beam_sigma_m() * scanner.beam_sigma_m());
@@ -54,20 +45,12 @@ void ScanLikelihood::set_scan(const LaserScan& scan, const ScannerModel& scanner
   }
   stated_noise_ = error.sigma_m() * error.sigma_m();
   set_map_error(error);
-  const double away = options.leave_ratio;
-  const double back = options.back_ratio;
-  const double gone = options.gone_ratio;
-  const std::array<Densities, kMets> step{{{1.0 - away - gone, away, gone},
-                                           {back, 1.0 - back - gone, gone},
-                                           {back, gone, 1.0 - back - gone}}};
-  next_ = step;
-  for (std::size_t i = 1; i < stride; ++i) next_ = product(next_, step);
+  next_ = transition(priors, stride).transpose();
 }
 
 void ScanLikelihood::set_map_error(const MapError& error) {
   map_noise_ = error.sigma_m() * error.sigma_m();
-  offset_noise_ = error.offset_sigma_m * error.offset_sigma_m;
-  length_m_ = std::max(1e-3, error.length_m);
+  process_ = offset_process(error);
 }
 
 double ScanLikelihood::share_of_news() const {
@@ -97,7 +80,7 @@ void ScanLikelihood::look_around(const LineMap& map, const Pose2& map_from_laser
   }
   sights_.resize(beams_.size());
   Vector2d before = Vector2d::Zero();
-  Vector2d along_before = Vector2d::Zero();
+  Vector2d normal_before = Vector2d::Zero();
   for (std::size_t k = 0; k < beams_.size(); ++k) {
     const double heading = map_from_laser.theta + beams_[k].bearing;
     const std::size_t ray = ray_of(k, heading);
@@ -105,7 +88,7 @@ void ScanLikelihood::look_around(const LineMap& map, const Pose2& map_from_laser
     sight = {ranges_[ray], 1.0, 0.0};
     if (walls_[ray] < 0) {
       sight.range = std::numeric_limits<double>::infinity();
-      along_before.setZero();
+      normal_before.setZero();
       continue;
     }
     const Segment& segment = map.walls()[static_cast<std::size_t>(walls_[ray])].segment;
@@ -113,10 +96,11 @@ void ScanLikelihood::look_around(const LineMap& map, const Pose2& map_from_laser
     const Vector2d along = (segment.b - segment.a).normalized();
     const Vector2d point = sight.range * direction;
     sight.cosine = std::max(0.02, std::abs(cross(along, direction)));
-    sight.same_off =
-        std::abs(along.dot(along_before)) * std::exp(-(point - before).norm() / length_m_);
+    const Vector2d across = perpendicular(along);
+    const Vector2d normal = across.dot(direction) > 0.0 ? Vector2d(-across) : across;
+    sight.same_off = process_.correlation(before, normal_before, point, normal);
     before = point;
-    along_before = along;
+    normal_before = normal;
     look_beyond(beams_[k], map_from_laser.translation(), direction, walls_[ray], sight);
   }
 }
@@ -130,29 +114,29 @@ void ScanLikelihood::look_beyond(const Beam& beam, const Vector2d& laser, const 
   sight.beyond_off = met->off / sight.beyond_cosine;
 }
 
-ScanLikelihood::Densities ScanLikelihood::densities(const Beam& beam, const Sight& sight,
-                                                    const Offset& offset, double doubt_m) const {
+Vector3d ScanLikelihood::densities(const Beam& beam, const Sight& sight, const Offset& offset,
+                                   double doubt_m) const {
   if (!std::isfinite(sight.range)) {
     // The map has nothing in reach.
-    if (!beam.has_return) return {1.0, options_.dropout_ratio, 0.0};
+    if (!beam.has_return) return {1.0, priors_.dropout_ratio, 0.0};
     return {0.0, 1.0 / reach_, 0.0};
   }
   if (!beam.has_return) {
-    const double missed = sight.cosine < kFlatCosine ? 0.3 : options_.dropout_ratio;
+    const double missed = sight.cosine < kFlatCosine ? 0.3 : priors_.dropout_ratio;
     const double close = std::min(1.0, (reach_ - sight.range) / (3.0 * (doubt_m + 1.0)));
-    return {1.0 + (missed - 1.0) * std::max(0.0, close), options_.dropout_ratio,
-            options_.dropout_ratio};
+    return {1.0 + (missed - 1.0) * std::max(0.0, close), priors_.dropout_ratio,
+            priors_.dropout_ratio};
   }
   const double off = beam.range - sight.range;
-  const double white = map_noise_ - offset_noise_ + doubt_m * doubt_m;
-  Densities densities{};
-  densities[kWall] = normal_density(off - offset.mean / sight.cosine, offset.variance + white,
-                                    sight.cosine, noise_);
-  densities[kOther] = off < 0.0 ? (1.0 - options_.long_ratio) / sight.range
-                                : options_.long_ratio / std::max(1.0, reach_);
+  const double white = map_noise_ - process_.variance + doubt_m * doubt_m;
+  Vector3d densities = Vector3d::Zero();
+  densities[Met::kWall] = normal_density(off - offset.mean / sight.cosine, offset.variance + white,
+                                         sight.cosine, noise_);
+  densities[Met::kOther] = off < 0.0 ? (1.0 - priors_.long_ratio) / sight.range
+                                     : priors_.long_ratio / std::max(1.0, reach_);
   if (sight.beyond_cosine > 0.0) {
-    densities[kBeyond] =
-        normal_density(sight.beyond_off, offset_noise_ + white, sight.beyond_cosine, noise_);
+    densities[Met::kBeyond] =
+        normal_density(sight.beyond_off, process_.variance + white, sight.beyond_cosine, noise_);
   }
   return densities;
 }
@@ -166,16 +150,16 @@ ScanLikelihood::Best ScanLikelihood::best_at(const LineMap& map, const Pose2& ma
                                              double doubt_m, std::span<const double> error_ratios) {
   look_around(map, map_from_laser);
   const double stated = map_noise_;
-  const double stated_offset = offset_noise_;
+  const double stated_offset = process_.variance;
   Best best{-std::numeric_limits<double>::infinity(), 1.0};
   for (const double ratio : error_ratios) {
     map_noise_ = ratio * ratio * stated;
-    offset_noise_ = ratio * ratio * stated_offset;
+    process_.variance = ratio * ratio * stated_offset;
     const double likelihood = in_sight(doubt_m);
     if (likelihood > best.log_likelihood) best = {likelihood, ratio};
   }
   map_noise_ = stated;
-  offset_noise_ = stated_offset;
+  process_.variance = stated_offset;
   return best;
 }
 
@@ -183,30 +167,22 @@ ScanLikelihood::Best ScanLikelihood::best_at(const LineMap& map, const Pose2& ma
 /// tracked from beam to beam by a Kalman filter, in which a beam counts by the probability that it
 /// met the wall (Bar-Shalom and Tse, Automatica 11, 1975).
 double ScanLikelihood::in_sight(double doubt_m) const {
-  const double away = options_.leave_ratio + options_.gone_ratio;
-  Densities met{options_.back_ratio / (options_.back_ratio + away), 0.0, 0.0};
-  met[kOther] = (1.0 - met[kWall]) * options_.leave_ratio / away;
-  met[kBeyond] = 1.0 - met[kWall] - met[kOther];
+  Vector3d met = steady_state(priors_);
   double sum = 0.0;
-  Offset offset{0.0, offset_noise_};
+  Offset offset{0.0, process_.variance};
   for (std::size_t k = 0; k < beams_.size(); ++k) {
     const Beam& beam = beams_[k];
     const Sight& sight = sights_[k];
     const double same = sight.same_off;
     offset.mean *= same;
-    offset.variance = offset_noise_ - same * same * (offset_noise_ - offset.variance);
-    const Densities density = densities(beam, sight, offset, doubt_m);
-    double scale = 1e-200;
-    for (std::size_t i = 0; i < kMets; ++i) scale += met[i] *= density[i];
+    offset.variance = process_.carried(offset.variance, same);
+    met = met.cwiseProduct(densities(beam, sight, offset, doubt_m));
+    const double scale = 1e-200 + met.sum();
     sum += std::log(scale);
-    for (double& share : met) share /= scale;
+    met /= scale;
     if (beam.has_return && std::isfinite(sight.range))
-      follow(beam, sight, met[kWall], doubt_m, offset);
-    Densities next{};
-    for (std::size_t i = 0; i < kMets; ++i) {
-      for (std::size_t j = 0; j < kMets; ++j) next[j] += met[i] * next_[i][j];
-    }
-    met = next;
+      follow(beam, sight, met[Met::kWall], doubt_m, offset);
+    met = next_ * met;
   }
   return sum;
 }
@@ -215,13 +191,13 @@ double ScanLikelihood::in_sight(double doubt_m) const {
 void ScanLikelihood::follow(const Beam& beam, const Sight& sight, double on_wall, double doubt_m,
                             Offset& offset) const {
   const double white =
-      map_noise_ - offset_noise_ + doubt_m * doubt_m + noise_ * sight.cosine * sight.cosine;
+      map_noise_ - process_.variance + doubt_m * doubt_m + noise_ * sight.cosine * sight.cosine;
   const double gain = offset.variance / (offset.variance + white);
   const double correction = gain * ((beam.range - sight.range) * sight.cosine - offset.mean);
   offset.mean += on_wall * correction;
   offset.variance =
-      std::min(offset_noise_, offset.variance * (1.0 - on_wall * gain) +
-                                  on_wall * (1.0 - on_wall) * correction * correction);
+      std::min(process_.variance, offset.variance * (1.0 - on_wall * gain) +
+                                      on_wall * (1.0 - on_wall) * correction * correction);
 }
 
 /// Where an edge is near the beam, either side of it may be what it met.

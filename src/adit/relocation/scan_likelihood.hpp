@@ -1,12 +1,13 @@
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
 #include "adit/map/line_map.hpp"
 #include "adit/places/wall_field.hpp"
+#include "adit/refinement/beam_chain.hpp"
 #include "adit/refinement/map_error.hpp"
+#include "adit/refinement/offset_process.hpp"
 #include "adit/relocation/options.hpp"
 #include "adit/scan/laser_scan.hpp"
 #include "adit/scan/scanner_model.hpp"
@@ -34,9 +35,9 @@ struct BeamShares {
 /// return where the map has nothing, and none where it has a wall, speak against it as well.
 class ScanLikelihood {
  public:
-  /// Takes the scan, of which it looks at a hundred beams or so.
+  /// Takes the scan, of which it looks at a hundred beams or so. `priors` as of the fits.
   void set_scan(const LaserScan& scan, const ScannerModel& scanner, const MapError& error,
-                const LikelihoodOptions& options);
+                const LikelihoodOptions& options, const BeamPriors& priors = {});
 
   /// Where walls may be gone, those behind them are looked up here.
   void set_walls(const WallField& walls) { field_ = &walls; }
@@ -76,13 +77,6 @@ class ScanLikelihood {
     double beyond_off = 0.0;     // along the beam, from another wall behind the first (m)
     double beyond_cosine = 0.0;  // zero where there is no such wall
   };
-  /// What a beam may meet: the map's wall, something else, a wall of the map behind one that is
-  /// gone.
-  static constexpr std::size_t kWall = 0;
-  static constexpr std::size_t kOther = 1;
-  static constexpr std::size_t kBeyond = 2;
-  static constexpr std::size_t kMets = 3;
-  using Densities = std::array<double, kMets>;
   /// The offset of the wall that the last beams met, away from the scanner.
   struct Offset {
     double mean = 0.0;  // m
@@ -93,23 +87,23 @@ class ScanLikelihood {
   void look_beyond(const Beam& beam, const Vector2d& laser, const Vector2d& direction, int wall,
                    Sight& sight) const;
   double in_sight(double doubt_m) const;
-  Densities densities(const Beam& beam, const Sight& sight, const Offset& offset,
-                      double doubt_m) const;
+  Vector3d densities(const Beam& beam, const Sight& sight, const Offset& offset,
+                     double doubt_m) const;
   void follow(const Beam& beam, const Sight& sight, double on_wall, double doubt_m,
               Offset& offset) const;
 
   LikelihoodOptions options_;
+  BeamPriors priors_;
   double stated_noise_ = 0.0;  // variance of the map's error as it was stated (m²)
   std::vector<Beam> beams_;
   bool evenly_spaced_ = true;
   double first_bearing_ = 0.0;
   double bearing_step_ = 0.0;
   double reach_ = 0.0;
-  double noise_ = 0.0;                   // variance of a range (m²)
-  double map_noise_ = 0.0;               // variance of a wall's place (m²)
-  double offset_noise_ = 0.0;            // the part of it that neighbours share ...
-  double length_m_ = 1.0;                // ... falling to 1/e within so much
-  std::array<Densities, kMets> next_{};  // of the chain: from what one beam met to the next
+  double noise_ = 0.0;                    // variance of a range (m²)
+  double map_noise_ = 0.0;                // variance of a wall's place (m²)
+  OffsetProcess process_;                 // the part of it that neighbours share
+  Matrix3d next_ = Matrix3d::Identity();  // of the chain: to the next (row) from what one beam met
   const WallField* field_ = nullptr;
   Visibility visibility_;
   std::vector<Sight> sights_;
