@@ -7,7 +7,7 @@ namespace adit {
 struct BeamPriors {
   double leave_ratio = 0.03;
   double back_ratio = 0.10;
-  double long_ratio = 0.05;
+  double long_ratio = 0.1;
   double gone_ratio = 0.005;
   double dropout_ratio = 0.05;
 
