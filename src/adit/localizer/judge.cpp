@@ -9,11 +9,14 @@ void Judge::forget() {
   displacement_.reset();
 }
 
-/// What the plan errs around here, as far as features go. Scan after scan sees the same error, so
-/// it is no noise that the filter may average; it stands beside what the filter believes.
-Matrix3d Judge::shared_map_error() const {
+/// What the plan errs as a whole around here: bends, walls that are off in full. Scan after scan
+/// sees the same error, so it is no noise that the filter may average; it stands beside what the
+/// filter believes. All points of a scan see its bends from end to end; features hang on single
+/// walls, whose short errors turn the heading as well.
+Matrix3d Judge::plan_error() const {
+  constexpr double kBend = 16.0;  // m; on so much way a bend turns the plan by its sigma
   const double metres = settings_.map.sigma_m;
-  const double radians = metres / settings_.belief.map_stretch_m;
+  const double radians = metres / (uses_points() ? kBend : settings_.belief.map_stretch_m);
   return Vector3d(metres * metres, metres * metres, radians * radians).asDiagonal();
 }
 
@@ -23,7 +26,7 @@ Estimate Judge::without_scan(double stamp, const Believed& believed) const {
   estimate.pose = believed.pose.pose;
   estimate.covariance = believed.covariance;
   const bool is_alone = !believed.is_anywhere && !believed.is_divided;
-  if (is_alone && !uses_points()) estimate.covariance += shared_map_error();
+  if (is_alone) estimate.covariance += plan_error();
   estimate.dead_reckoned = !believed.has_contributed;
   if (believed.is_divided && believed.has_contributed) estimate.status = Status::ambiguous;
   return estimate;
@@ -60,10 +63,11 @@ double Judge::protection_radius(const Believed& believed, const Fits& fits,
     walls_.push_back({share.wall, share.equations.information, share.equations.score});
   }
   const PoseWithCovariance& at = believed.pose;
-  double level =
-      protection_.update(at, believed.predicted, fits.best.pose, walls_, settings_.protection);
+  const Matrix3d error = plan_error();
+  double level = protection_.update(at, believed.predicted, fits.best.pose, walls_, error,
+                                    settings_.protection);
   const auto cover = [&](double apart, const Matrix3d& covariance) {
-    level = std::max(level, apart + radius_of(covariance, settings_.protection.risk));
+    level = std::max(level, apart + radius_of(covariance + error, settings_.protection.risk));
   };
   displacement_.see(largest_displacement(details.beams, details.on_wall, details.scanner,
                                          details.map_sigma_m, settings_.displacement));

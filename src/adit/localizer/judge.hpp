@@ -30,7 +30,7 @@ class Judge {
 
  private:
   bool uses_points() const { return settings_.estimator != Estimator::features; }
-  Matrix3d shared_map_error() const;
+  Matrix3d plan_error() const;
   double protection_radius(const Believed& believed, const Fits& fits, const FitDetails& details);
 
   const LocalizerSettings& settings_;

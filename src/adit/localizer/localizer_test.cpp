@@ -194,6 +194,21 @@ TEST_F(LocalizerTest, TheErrorThatThePlanSharesStandsBesideTheFilter) {
   }
 }
 
+TEST_F(LocalizerTest, ThePlansLongErrorStandsInCovarianceAndLevel) {
+  // 3.72 sigma on a circle are exceeded once in a thousand.
+  LocalizerSettings bent = settings();
+  bent.map.sigma_m = 0.2;
+  for (const Estimate& e : run(drive, bent)) {
+    EXPECT_GT(e.covariance(0, 0), 0.2 * 0.2);
+    EXPECT_GT(e.covariance(1, 1), 0.2 * 0.2);
+    EXPECT_LT(e.covariance(0, 0), 0.25 * 0.25);
+    EXPECT_GT(e.covariance(2, 2), std::pow(0.2 / 16.0, 2));
+    EXPECT_GT(e.protection_m, 3.71 * 0.2);
+    EXPECT_LT(e.protection_m, 3.71 * 0.2 + 0.3);
+  }
+  for (const Estimate& e : run(drive)) EXPECT_LT(e.protection_m, 0.3);  // exact, and stated so
+}
+
 TEST_F(LocalizerTest, FeaturesAreMatchedOnTheWayWhereThePlanHasWallsTwice) {
   std::vector<Segment> walls = room();
   for (const Segment& wall : room()) {  // once more, 5 cm farther in

@@ -45,7 +45,10 @@ struct MapErrorOptions {
 
   template <class Self, class Field>
   static void visit(Self& self, Field&& field) {
-    field("sigma_m", self.sigma_m, "how far a wall may lie from its line, one sigma (m)");
+    field(
+        "sigma_m", self.sigma_m,
+        "how far the plan may lie from the mine: bends, whole walls, on each axis, one sigma (m); "
+        "0 for an exact plan. What it errs over a metre or two is learnt, from here on");
     field("length_m", self.length_m,
           "way along a wall after which its offset has become another, to 1/e (m)");
     field("roughness_share", self.roughness_share,

@@ -45,7 +45,7 @@ Protection::Protection() {
 
 double Protection::update(const PoseWithCovariance& estimate, const PoseWithCovariance& prediction,
                           const Pose2& fitted_at, std::span<const WallEvidence> walls,
-                          const ProtectionOptions& options) {
+                          const Matrix3d& plan_error, const ProtectionOptions& options) {
   const Matrix3d prior = prediction.covariance.inverse();
   const Matrix3d loose_prior = prior / options.loose_prior;
   WallEvidence all;
@@ -55,13 +55,15 @@ double Protection::update(const PoseWithCovariance& estimate, const PoseWithCova
   }
   const Vector3d to_prediction = difference(fitted_at, prediction.pose);
   const Vector3d to_estimate = difference(fitted_at, estimate.pose);
-  double level = options.margin * radius_of(estimate.covariance, options.risk);
+  const auto radius = [&](const Matrix3d& covariance) {
+    return radius_of(options.margin * options.margin * covariance + plan_error, options.risk);
+  };
+  double level = radius(estimate.covariance);
   const auto leave_out = [&](const WallEvidence& wall, const Vector3d& followed) {
     const Matrix3d information = all.information - wall.information;
     const Vector3d score = all.score - wall.score + loose_prior * (to_prediction + followed);
     const Vector3d separation = (information + loose_prior).inverse() * score - to_estimate;
-    const double radius = options.margin * radius_of((information + prior).inverse(), options.risk);
-    level = std::max(level, separation.head<2>().norm() + radius);
+    level = std::max(level, separation.head<2>().norm() + radius((information + prior).inverse()));
     keep(wall.wall, separation);
   };
   std::swap(followed_, before_);

@@ -25,7 +25,7 @@ struct ProtectionOptions {
     field("risk", self.risk,
           "probability that the position errs by more than the protection level");
     field("margin", self.margin,
-          "factor on the radius that a normal distribution of a covariance would need");
+          "factor on what the covariances of filter and fits say, but for the plan's long error");
     field(
         "loose_prior", self.loose_prior,
         "where one wall is left out, dead reckoning's variance counts so many times: without that "
@@ -48,10 +48,11 @@ class Protection {
  public:
   Protection();
 
-  /// The level after a scan. `walls` are its evidence about the pose `fitted_at`.
+  /// The level after a scan. `walls` are its evidence about the pose `fitted_at`; `plan_error` is
+  /// what the plan errs as a whole around here (x, y, theta; map axes), in no other covariance.
   double update(const PoseWithCovariance& estimate, const PoseWithCovariance& prediction,
                 const Pose2& fitted_at, std::span<const WallEvidence> walls,
-                const ProtectionOptions& options);
+                const Matrix3d& plan_error, const ProtectionOptions& options);
   /// Forgets all walls: the pose is another's.
   void reset() { followed_.clear(); }
 

@@ -113,7 +113,8 @@ class Room {
     return level(protection, options);
   }
   double level(Protection& protection, const ProtectionOptions& options = {}) const {
-    return protection.update(estimate(), prediction_, fitted_at_, walls_, options);
+    return protection.update(estimate(), prediction_, fitted_at_, walls_, Matrix3d::Zero(),
+                             options);
   }
   Vector3d error_vector() const { return difference(truth_, estimate().pose); }
   double error() const { return (estimate().pose.translation() - truth_.translation()).norm(); }
@@ -237,7 +238,7 @@ TEST(ProtectionLevel, MindsOnlyDifferencesOfHeadings) {
   const auto level = [&](double heading) {
     const auto turned = [&](double by) { return Pose2{0.0, 0.0, wrap_angle(heading + by)}; };
     return Protection().update({turned(0.0), prior}, {turned(0.02), prior}, turned(-0.01), walls,
-                               {});
+                               Matrix3d::Zero(), {});
   };
   for (double heading = -kPi; heading < kPi; heading += 0.005) {
     ASSERT_NEAR(level(heading), level(0.0), 1e-9) << heading;
