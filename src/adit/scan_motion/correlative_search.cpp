@@ -75,7 +75,7 @@ void CorrelativeSearch::set_points(std::span<const PlacedShape> shapes,
 
 void CorrelativeSearch::rotate(const EvidenceField& field, const SearchWindow& window,
                                double step_rad, int angles) {
-  rotated_.resize(static_cast<std::size_t>(2 * angles + 1));
+  rotated_.resize(2 * static_cast<std::size_t>(angles) + 1);
   for (int a = 0; a <= 2 * angles; ++a) {
     Pose2 pose = window.middle;
     pose.theta += (a - angles) * step_rad;

@@ -65,7 +65,8 @@ void EvidenceField::clear_beams(const PlacedShape& s) {
 void EvidenceField::stamp_walls(double blur_m) {
   const int reach = static_cast<int>(std::ceil(2.5 * blur_m / cell_m_));
   const int side = 2 * reach + 1;
-  std::vector<std::uint8_t> kernel(static_cast<std::size_t>(side * side));
+  const auto cells = static_cast<std::size_t>(side);
+  std::vector<std::uint8_t> kernel(cells * cells);
   for (int dy = -reach; dy <= reach; ++dy) {
     for (int dx = -reach; dx <= reach; ++dx) {
       const double d2 = (dx * dx + dy * dy) * cell_m_ * cell_m_;

@@ -54,7 +54,7 @@ void SurfaceMap::merge() {
     std::int64_t key;
     std::int32_t facing;
     std::uint32_t row;
-    auto operator<=>(const Tagged&) const = default;
+    auto operator<=>(const Tagged&) const = default;  // NOLINT(modernize-use-nullptr): in its code
   };
   std::vector<Tagged> order;
   order.reserve(raw_.size());

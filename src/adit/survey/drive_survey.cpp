@@ -226,10 +226,9 @@ void DriveSurvey::solve_all(int threads, const DriveProgress& progress) {
   solve_in_map();
 }
 
-Result<DriveResult> DriveSurvey::finish(int threads, const DriveProgress& given) {
-  const DriveProgress progress = given ? given : [](const char*, double) {};
+Result<DriveResult> DriveSurvey::finish(int threads, const DriveProgress& progress) {
   try {
-    solve_all(threads, progress);
+    solve_all(threads, progress ? progress : [](const char*, double) {});
     if (!solved_) {
       return fail("the poses of the drive cannot be solved for: its scans or odometry contradict");
     }

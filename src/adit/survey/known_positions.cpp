@@ -238,9 +238,10 @@ class StationSurvey {
   /// Gives the stations the headings of their first scans; the turns' root mean square over those
   /// that are in the walls.
   double settle_stations(std::span<const double> turns) {
-    for (auto scan = survey_.scans.rbegin(); scan != survey_.scans.rend(); ++scan) {
-      survey_.stations[static_cast<std::size_t>(scan->station)].heading.heading_rad =
-          scan->map_from_vehicle.theta;
+    for (std::size_t i = survey_.scans.size(); i-- > 0;) {
+      const auto& scan = survey_.scans[i];
+      survey_.stations[static_cast<std::size_t>(scan.station)].heading.heading_rad =
+          scan.map_from_vehicle.theta;
     }
     double squares = 0.0;
     double count = 0.0;

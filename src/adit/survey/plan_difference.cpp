@@ -71,7 +71,7 @@ class Comparison {
   Result<void> look_about(const PosedScans& scans) {
     const std::size_t step = scans.size() / kMostObservers + 1;
     std::size_t i = 0;
-    const auto done = scans.visit([&](const PosedScan& scan) {
+    auto done = scans.visit([&](const PosedScan& scan) {
       extend_by_beams(scan, scanner_, looked_at_);
       if (i++ % step == 0) observers_.push_back(scan.map_from_vehicle.translation());
     });
@@ -93,7 +93,7 @@ class Comparison {
     evidence_.add(hits, 0);
     evidence_.finish_adding();
     Visits visit(visits.size() == scans.size() ? visits : std::span<const int>{}, visit_m_);
-    const auto done = scans.visit([&](const PosedScan& scan) {
+    auto done = scans.visit([&](const PosedScan& scan) {
       evidence_.look_through(scan, visit.next(scan.map_from_vehicle));
     });
     evidence_.finish_looking();

@@ -35,7 +35,7 @@ Vector2d meeting(const PieceLine& a, const PieceLine& b, const Vector2d& end, co
   const double sine = cross(a.direction, b.direction);
   if (std::abs(sine) > kParallel) {
     const double along = cross(b.point - a.point, b.direction) / sine;
-    const Vector2d at = a.point + along * a.direction;
+    Vector2d at = a.point + along * a.direction;
     if ((at - middle).norm() <= reach) return at;
   }
   return 0.5 * (a.project(middle) + b.project(middle));
