@@ -70,7 +70,8 @@ void EvidenceField::stamp_walls(double blur_m) {
   for (int dy = -reach; dy <= reach; ++dy) {
     for (int dx = -reach; dx <= reach; ++dx) {
       const double d2 = (dx * dx + dy * dy) * cell_m_ * cell_m_;
-      kernel[static_cast<std::size_t>((dy + reach) * side + dx + reach)] =
+      const int cell = (dy + reach) * side + dx + reach;
+      kernel[static_cast<std::size_t>(cell)] =
           static_cast<std::uint8_t>(std::lround(255.0 * std::exp(-0.5 * d2 / (blur_m * blur_m))));
     }
   }

@@ -228,7 +228,8 @@ void DriveSurvey::solve_all(int threads, const DriveProgress& progress) {
 
 Result<DriveResult> DriveSurvey::finish(int threads, const DriveProgress& progress) {
   try {
-    solve_all(threads, progress ? progress : [](const char*, double) {});
+    const DriveProgress unheard = [](const char*, double) {};
+    solve_all(threads, progress ? progress : unheard);
     if (!solved_) {
       return fail("the poses of the drive cannot be solved for: its scans or odometry contradict");
     }
